@@ -207,7 +207,7 @@ def size(
         cache: as of `fill`.
         parameters: as of `fill`, and what is wanted, as options of the command: `max_stress`,
             `safety`, `max_displacement`, `buckling`, `min_frequency`, `strut_mass`, `thinnest`,
-            `thickest`, `smooth`.
+            `thickest`, `smooth`, `skin_thinnest`, `skin_thickest`, `skin_patch`, `sized_mass`.
 
     Returns:
         The part; its `sized` holds the radii, and `sized.report` the figures before and after.

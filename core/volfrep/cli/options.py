@@ -163,6 +163,7 @@ class SizeOptions(LatticeOptions):
         prove_file: whether the finished file is solved as a solid.
         voxel: edge of its voxels, mm; None for what suits the part.
         radii: file for the radii; None for none.
+        thickness: file for the thickness of a skin that is sized; None for none.
         write_spec: file for the specification with these radii; None for none.
         report: file for the figures; None for none.
         plot: file for mass and limits; None for none.
@@ -183,6 +184,7 @@ class SizeOptions(LatticeOptions):
     prove_file: bool
     voxel: float | None
     radii: str | None
+    thickness: str | None
     write_spec: str | None
     report: str | None
     plot: str | None
@@ -238,6 +240,14 @@ def size_options(given: argparse.Namespace) -> SizeOptions:
     if given.write_spec is not None and given.radii is None:  # which the specification names
         radii = str(Path(given.write_spec).with_suffix(".radii.csv"))
         given = argparse.Namespace(**{**vars(given), "radii": radii})
+    if given.skin_thinnest is None:
+        if given.thickness is not None:
+            raise VolfrepError(
+                "--thickness has no effect without --skin-thinnest: add that or leave it."
+            )
+    elif given.write_spec is not None and given.thickness is None:
+        thickness = str(Path(given.write_spec).with_suffix(".skin.csv"))
+        given = argparse.Namespace(**{**vars(given), "thickness": thickness})
     check_files(given, found.files)
     form = mesh_form(given.output)
     if given.picture is not None:
@@ -260,6 +270,7 @@ def size_options(given: argparse.Namespace) -> SizeOptions:
         goal={name: getattr(given, name) for name in GOALS}, remove_thin=given.remove_thin,
         steps=given.steps, prove=not given.no_proof,
         prove_file=given.prove == "file", voxel=given.voxel, radii=given.radii,
+        thickness=given.thickness,
         write_spec=given.write_spec, report=given.report, plot=given.plot, picture=given.picture,
         colour=given.colour or "radius", case=given.case, deformed=given.deformed or 0.0,
     )  # fmt: skip

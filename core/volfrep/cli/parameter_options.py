@@ -60,7 +60,7 @@ class Specified:
     @property
     def files(self) -> dict[str, str]:
         """The files that parameters name, by the names of these."""
-        named = ("cell", "radius_field", "network_file", "network_field")
+        named = ("cell", "radius_field", "network_file", "network_field", "skin_field")
         return {name: self.values[name] for name in named if self.values.get(name) is not None}
 
 

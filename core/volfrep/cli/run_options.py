@@ -369,7 +369,11 @@ RUN_OPTIONS = (
         "FILE.csv", writes="radii",
     ),
     RunOption(
-        "max-stress", ("size",), "largest von Mises stress in a strut",
+        "thickness", ("size",), "the thickness of a skin that is sized, as --skin-field reads it",
+        "FILE.csv", writes="thickness",
+    ),
+    RunOption(
+        "max-stress", ("size",), "largest von Mises stress in a strut, and in a skin that is sized",
         "MPA", GOAL_GROUP, float,
     ),
     RunOption(
@@ -398,6 +402,23 @@ RUN_OPTIONS = (
     RunOption(
         "smooth", ("size",), "share of its neighbours in each node's radius, 0 to 0.9 (default 0)",
         "S", GOAL_GROUP, float, 0.0,
+    ),
+    RunOption(
+        "skin-thinnest", ("size",), "size the skin, too: its smallest thickness",
+        "MM", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "skin-thickest", ("size",), "its largest thickness (default: half the cell size)",
+        "MM", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "skin-patch", ("size",),
+        "how far apart it is chosen, smooth between (default: the cell size); inf: one everywhere",
+        "MM", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "sized-mass", ("size",), "of struts and skin that are sized, for the most stiffness",
+        "G", GOAL_GROUP, float,
     ),
     RunOption(
         "remove-thin", ("size",),
@@ -520,6 +541,7 @@ _OTHER_INPUTS = {
     "part": "part",
     "cell": "cell file",
     "radius_field": "field file",
+    "skin_field": "file of the skin's thickness",
     "network_field": "network's field file",
     "network_file": "network file",
 }

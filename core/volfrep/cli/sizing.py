@@ -50,7 +50,7 @@ def _size(given: argparse.Namespace) -> int | None:
     options = size_options(given)
 
     from ..jobs.infill import Infill
-    from ..jobs.sizing import goal_of, prove_file, size, write_radii
+    from ..jobs.sizing import goal_of, prove_file, size, write_radii, write_thickness
     from ..loads.load_file import read_load_cases
     from ..output.sources import FilledPart
     from ..output.writer import Settings, writer_of
@@ -84,6 +84,8 @@ def _size(given: argparse.Namespace) -> int | None:
                 made, part.result.mesh, loads, voxel=options.voxel, progress=progress,
                 tell=tell_expected(options.quiet),
             )  # fmt: skip
+    if options.thickness is not None:
+        write_thickness(made.spec, options.thickness)
     if options.radii is not None:
         write_radii(made, options.radii)
         _write_specification(options, made)
@@ -167,7 +169,8 @@ def _write_specification(options: SizeOptions, made: SizedPart) -> None:
     from ..design.parameters.spec_file import write_values
     from ..jobs.sizing import values_with_radii
 
-    write_values(values_with_radii(made, options.radii), options.write_spec)
+    values = values_with_radii(made, options.radii, options.thickness)
+    write_values(values, options.write_spec)
 
 
 def _picture(options: SizeOptions, made: SizedPart) -> None:

@@ -14,6 +14,8 @@ from .cells import UnitCell, any_cell
 from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, as_plain
 from .kinds import Kind, kind_of
 from .openings import DrainHoles
+from .sampled_field import SampledField
+from .scattered_field import PointField
 from .spec_fields import SpecFields
 from .spec_parts import (
     ACTIVATIONS,
@@ -77,6 +79,8 @@ class LatticeSpec(SpecFields):
         face_skins: faces with a skin thickness of their own (`FaceSkin`); 0 opens them.
         keep_solid: faces round which the part stays solid (`KeptFace`), and bodies whose room in
             it does (`KeptBody`).
+        skin_field: thickness of the skin at points, mm: below all other faces it
+            follows that, and is nowhere thinner than `shell`; None for the same everywhere.
         drains: holes through the skin (`volfrep.design.openings`); None for none.
         remove_dangling: take away struts with a free end, again and again until there are none.
         shortest_stub: struts with a free end that are shorter than this are taken away; 0 for
@@ -118,6 +122,7 @@ class LatticeSpec(SpecFields):
     def __post_init__(self) -> None:
         for name, kind in _PARTS.items():
             check_kind(name, getattr(self, name), (kind, type(None)), f"a {kind.__name__}")
+        check_kind("skin_field", self.skin_field, (PointField, SampledField, type(None)), "a field")
         for name in ("open_faces", "face_skins", "keep_solid"):
             check_kind(name, getattr(self, name), (tuple, list), "a tuple")
             for one in getattr(self, name):
@@ -149,7 +154,7 @@ class LatticeSpec(SpecFields):
                 f"There is no output {brief(self.output)}: choose one of {', '.join(OUTPUTS)}."
             )
         of_skin = self.open_faces or self.face_skins or self.keep_solid or self.drains is not None
-        if self.shell == 0 and of_skin:
+        if self.shell == 0 and (of_skin or self.skin_field is not None):
             raise VolfrepError(
                 "Open faces, drain holes, faces with a skin of their own, and what is kept solid, "
                 "need a skin that they belong to: give a shell thickness above 0."
@@ -226,4 +231,6 @@ class LatticeSpec(SpecFields):
         values = {name: as_plain(getattr(self, name)) for name in self.__dataclass_fields__}
         values["cell"] = self.cell_name
         del values["wall"]
+        if self.skin_field is None:  # kept reports do not have it
+            del values["skin_field"]
         return values | self.kind.as_plain()

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..util.errors import VolfrepError
 from ..util.types import Floats
 from .cells import UnitCell, joint_radius
-from .grading import CellMap, Orientation, RadiusGrading, SizeGrading
+from .grading import CellMap, Field, Orientation, RadiusGrading, SizeGrading
 from .graphs import GivenGraph, RandomGraph, StretchedCells
 from .openings import DrainHoles, OpenFace
 from .skins.kept_bodies import KeptBody
@@ -42,6 +42,7 @@ class SpecFields:
     open_faces: tuple[OpenFace, ...] = ()
     face_skins: tuple[FaceSkin, ...] = ()
     keep_solid: tuple[KeptFace | KeptBody, ...] = ()
+    skin_field: Field | None = None
     drains: DrainHoles | None = None
     remove_dangling: bool = False
     shortest_stub: float = 0.0
@@ -76,7 +77,7 @@ class SpecFields:
         """The part's skin; None for none."""
         if self.shell == 0:
             return None
-        return Skin(self.shell, self.open_faces, self.face_skins, self.keep_solid)
+        return Skin(self.shell, self.open_faces, self.face_skins, self.keep_solid, self.skin_field)
 
     @property
     def ending(self) -> Boundary:

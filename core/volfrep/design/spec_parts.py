@@ -17,7 +17,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.numbers import number, point, whole
 from ..util.types import Floats
-from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, Vector
+from .grading import CellMap, Field, Orientation, RadiusGrading, SizeGrading, Vector
 from .openings import OpenFace
 from .skins.kept_bodies import KeptBody
 from .skins.own_faces import FaceSkin, KeptFace, Thicknesses, thicknesses
@@ -129,12 +129,15 @@ class Skin:
         open_faces: faces of the part that have none; the cavity opens there.
         face_skins: faces that have another thickness.
         keep_solid: faces round which the part stays solid, and bodies whose room does.
+        field: the thickness below all other faces, mm, where that is more than `thickness`; None
+            for the same everywhere.
     """
 
     thickness: float
     open_faces: tuple[OpenFace, ...] = ()
     face_skins: tuple[FaceSkin, ...] = ()
     keep_solid: tuple[KeptFace | KeptBody, ...] = ()
+    field: Field | None = None
 
     def __post_init__(self) -> None:
         number("shell thickness", self.thickness, "mm", positive=True)
@@ -144,13 +147,14 @@ class Skin:
     @property
     def is_even(self) -> bool:
         """Whether it is as thick everywhere as it is anywhere."""
-        return not (self.face_skins or self.keep_solid)
+        return not (self.face_skins or self.keep_solid) and self.field is None
 
     @property
     def deepest(self) -> float:
         """Its largest thickness below a face, mm."""
         kept = (one.distance for one in self.keep_solid if isinstance(one, KeptFace))
-        return max(self.thickness, *(one.thickness for one in self.face_skins), *kept, 0.0)
+        most = self.thickness if self.field is None else self.field.range[1]
+        return max(self.thickness, most, *(one.thickness for one in self.face_skins), *kept, 0.0)
 
     def thicknesses(self, solid: TriangleMesh) -> Thicknesses:
         """How thick it is below the triangles of a solid.
@@ -175,7 +179,10 @@ class Skin:
             VolfrepError: a face is not found, or all of them are open.
         """
         lengths = self.thicknesses(solid)
-        result = np.where(lengths.usual, self.thickness, 0.0)
+        usual: float | Floats = self.thickness
+        if self.field is not None:
+            usual = np.maximum(self.thickness, self.field(np.mean(solid.corners(), axis=0)))
+        result = np.where(lengths.usual, usual, 0.0)
         for faces, length in lengths.others:
             result = np.maximum(result, np.where(faces, length, 0.0))
         return result

@@ -70,6 +70,8 @@ class SolvedFrame:
         sections: (nodes, 3, cases) the axial force in the beams, N, and the moments about the two
             axes of their section, N mm: at nodes between equal elements of a strut.
         frequencies: (modes,) Hz.
+        skin: (nodes, 6, cases) stresses at the nodes of a skin's solids, MPa: xx, yy, zz, xy, yz,
+            zx; 0 elsewhere.
         factors: (cases,) how many times the loads may be before the frame buckles; nan where that
             was not asked for.
     """
@@ -78,6 +80,7 @@ class SolvedFrame:
     sections: Floats
     frequencies: Floats
     factors: Floats
+    skin: Floats
 
 
 def solve_frame(
@@ -114,6 +117,7 @@ def solve_frame(
     nodes = np.concatenate(parts)
     moved = np.zeros((len(nodes), 3, len(cases)))
     sections = np.zeros((len(nodes), 3, len(cases)))
+    on_skin = np.zeros((len(nodes), 6, len(cases)))
     frequencies = np.zeros(0)
     factors = np.full(len(cases), np.nan)
 
@@ -134,6 +138,8 @@ def solve_frame(
                 moved[number, :, k] = values
             for k, (number, values) in zip(group, results.section_forces(), strict=False):
                 sections[number, :, k] = values[:, [2, 4, 5]]
+                solid = number >= len(model.nodes)
+                on_skin[number[solid], :, k] = values[solid]
             if with_modes:
                 frequencies = results.frequencies()[:modes]
         for k in group:
@@ -145,7 +151,7 @@ def solve_frame(
                 if found is None:
                     raise VolfrepError("CalculiX found no load at which the frame buckles.")
                 factors[k] = scale * found
-    return SolvedFrame(moved, sections, frequencies, factors)
+    return SolvedFrame(moved, sections, frequencies, factors, on_skin)
 
 
 def _of_equal_supports(cases: Sequence[Case]) -> list[list[int]]:

@@ -12,14 +12,12 @@ from ..loads.load_cases import LoadCases
 from ..sizing.analysis import Analysis
 from ..sizing.model import SizingModel
 from ..sizing.optimise import Sized
-from ..util.types import Floats
+from ..sizing.skin_thickness import PEAKS, all_but
 
 #: Cantilevers of the six cells as second-order tetrahedra, sized and of one radius, gained at least
 #: 0.79 of what is told: joints of thick struts between thin ones are less stiff than those of a
 #: cell of one radius, to which beams' ends are fitted. So no less than this is left.
 GAIN_IN_SOLIDS = 0.75
-#: Peaks of stress on so much of the skin's area, as in a corner of a support, are not told.
-PEAKS = 0.001
 
 
 def sizing_report(
@@ -113,13 +111,6 @@ def least_gain(gain: float) -> float:
     return min(gain, max(1.0, GAIN_IN_SOLIDS * gain))
 
 
-def all_but(values: Floats, weights: Floats, share: float) -> float:
-    """The value that no more than a share of the weights goes beyond."""
-    order = np.argsort(values)
-    total = np.cumsum(weights[order])
-    return float(values[order[np.searchsorted(total, (1.0 - share) * total[-1])]])
-
-
 def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     """The figures as lines for a user."""
     low, high = report["radii_mm"]
@@ -182,7 +173,30 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         )
     if "skin_stress_mpa" in report:
         most = max(report["skin_stress_mpa"])
-        rows.append(("skin stress", f"{most:.4g} MPa on all but {PEAKS:.1%} of its area"))
+        felt = (proof or {}).get("skin_stress_mpa")
+        told = f", {max(felt):.4g} MPa in CalculiX" if felt else ""
+        rows.append(("skin stress", f"{most:.4g} MPa on all but {PEAKS:.1%} of its area{told}"))
+    if "skin" in report:
+        skin, held = report["skin"], report["skin"]["there_over_asked"]
+        low, high = skin["thickness_mm"]
+        rows.append(
+            (
+                "skin",
+                f"{low:.3g} to {high:.3g} mm, {skin['mean_thickness_mm']:.3g} mm on average; in "
+                f"the part {held['5%']:.1%} to {held['95%']:.1%} of that on 90% of its area",
+            )
+        )
+        if skin["even"] is not None:
+            even = skin["even"]
+            mass = even["volume_mm3"] * report["material"]["density"] / 1000.0
+            what = "hold the same limits" if even["holds"] else "do not even hold the limits"
+            rows.append(
+                (
+                    "one skin",
+                    f"{even['thickness_mm']:.3g} mm and one radius of {even['radius_mm']:.3g} mm "
+                    f"{what} with {mass:.4g} g",
+                )
+            )
     rows.append(("CalculiX", _confirmation(proof)))
     if "file" in report:
         rows += _file_rows(report["file"])

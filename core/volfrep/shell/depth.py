@@ -11,11 +11,14 @@ cavity is what is farther from every group than that group's length. So the wall
 one function that changes no faster than one goes, the largest of (length - distance): it cannot
 cross itself, and where a thick skin ends beside a thin one it is rounded off by its own thickness,
 as a ball that rolls along the edge of the thick faces leaves it.
+
+A skin whose thickness follows a field has its wall where the depth is the thickness of that place
+(`thickness_field`).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -25,6 +28,7 @@ from ..spatial.proximity import SurfaceIndex, index_surface
 from ..spatial.rays import inside_points
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
+from .thickness_field import STEEPEST, ThicknessField
 
 #: Points of one step between two looks at the cancel button.
 POINTS_PER_STEP = 40_000
@@ -38,13 +42,15 @@ class Depth:
 
     Attributes:
         index: the outer surface.
-        thickness: of the wall, mm.
+        thickness: of the wall, mm; of one that follows a field the least.
         monitor: asked for a cancel between steps.
+        lengths: the field that the thickness follows; None for one thickness.
     """
 
     index: SurfaceIndex
     thickness: float
     monitor: Monitor
+    lengths: ThicknessField | None = field(default=None, kw_only=True)
 
     def nearest(self, points: Floats) -> tuple[Floats, Floats]:
         """(n, 3) closest points of the outer surface and (n,) distances, not signed, mm."""
@@ -56,6 +62,11 @@ class Depth:
             return np.zeros((0, 3)), np.zeros(0)
         closest, distance = (np.concatenate(values) for values in zip(*parts, strict=True))
         return closest, distance
+
+    @property
+    def steepest(self) -> float:
+        """By so much the values change with the way, at most."""
+        return 1.0 if self.lengths is None else STEEPEST
 
     @property
     def inset(self) -> float:
@@ -87,16 +98,27 @@ class Depth:
             inside[asked] = self.index.below(points[asked])
         sign = np.ones(len(points)) if inside is None else np.where(inside, 1.0, -1.0)
         gradient = (closest - points) * (sign / np.maximum(distance, 1e-300))[:, None]
+        if self.lengths is not None:
+            wanted, slopes = self.lengths.with_slopes(points)
+            return wanted - sign * distance, gradient + slopes
         return self.thickness - sign * distance, gradient
 
     def planes(self, points: Floats) -> tuple[Floats, Floats]:
         """Tangent planes of the wall near points inside: a point at exact depth, and the normal."""
         closest, distance = self.nearest(points)
         normals = (closest - points) / np.maximum(distance, 1e-300)[:, None]
+        if self.lengths is not None:
+            wanted, slopes = self.lengths.with_slopes(points)
+            return level_planes(points, wanted - distance, normals + slopes)
         return closest - self.thickness * normals, normals
 
     def strays(self, points: Floats) -> Floats:
-        """(n,) relative errors of the wall's thickness at points of it: above 0 is too thick."""
+        """(n,) relative errors of the wall's thickness at points of it: above 0 is too thick.
+
+        Of one that follows a field in units of the least.
+        """
+        if self.lengths is not None:
+            return (self.nearest(points)[1] - self.lengths(points)) / self.thickness
         return np.asarray(self.nearest(points)[1] / self.thickness - 1.0)
 
 
@@ -140,7 +162,8 @@ class OpenDepth(Depth):
     def planes(self, points: Floats) -> tuple[Floats, Floats]:
         """As `Depth.planes`; beyond the open faces, of where the cavity ends."""
         anchor, normal = super().planes(points)
-        skin = self.thickness - self.nearest(points)[1]
+        wanted = self.thickness if self.lengths is None else self.lengths(points)
+        skin = wanted - self.nearest(points)[1]
         beyond, outward = self._beyond(points)
         ends = (beyond > skin)[:, None]
         end = points - beyond[:, None] * outward
@@ -159,6 +182,12 @@ class OpenDepth(Depth):
 
     def _inside(self, points: Floats) -> Bools:
         return inside_points(self.solid, points, self.monitor)
+
+
+def level_planes(points: Floats, values: Floats, gradient: Floats) -> tuple[Floats, Floats]:
+    """Tangent planes of a level set: where it is, of (n,) values near 0 at points, and normals."""
+    size = np.maximum(np.linalg.norm(gradient, axis=1), 1e-300)[:, None]
+    return points - values[:, None] * gradient / size**2, gradient / size
 
 
 def open_depth(
@@ -186,18 +215,23 @@ class SheetDepth(Depth):
     Attributes:
         thinnest: the depth below the faces of the thinnest skin, and where the cavity ends beyond
             open faces.
-        others: the other groups of faces and their thicknesses, mm.
+        others: the depths below the other groups of faces.
         solid: the part, where it has open faces; else None.
     """
 
     thinnest: Depth
-    others: tuple[tuple[SurfaceIndex, float], ...]
+    others: tuple[Depth, ...]
     solid: TriangleMesh | None
 
     @property
     def error(self) -> float:
         """Points inside may be nearest to a group's border, which has few samples around it."""
         return self.index.spacing
+
+    @property
+    def steepest(self) -> float:
+        """The largest of all groups'."""
+        return max(one.steepest for one in (self.thinnest, *self.others))
 
     @property
     def inset(self) -> float:
@@ -212,11 +246,9 @@ class SheetDepth(Depth):
             inside = None  # the thinnest group looks it up, for where the cavity ends
         value, gradient = self.thinnest.values(points, inside, unknown)
         sign = np.ones(len(points)) if inside is None else np.where(inside, 1.0, -1.0)
-        for index, thickness in self.others:
-            closest, distance = Depth(index, thickness, self.monitor).nearest(points)
-            here = thickness - sign * distance
+        for other in self.others:
+            here, way = other.values(points, inside)
             nearer = np.where(sign > 0.0, here > value, here < value)
-            way = (closest - points) * (sign / np.maximum(distance, 1e-300))[:, None]
             value = np.where(nearer, here, value)
             gradient = np.where(nearer[:, None], way, gradient)
         return value, gradient
@@ -224,6 +256,8 @@ class SheetDepth(Depth):
     def planes(self, points: Floats) -> tuple[Floats, Floats]:
         """As `Depth.planes`, of the group that the wall belongs to there."""
         value, normals = self.values(points)
+        if self.steepest > 1.0:
+            return level_planes(points, value, normals)
         return points - value[:, None] * normals, normals
 
     def strays(self, points: Floats) -> Floats:
@@ -241,8 +275,13 @@ def thinnest_of(thicknesses: Thicknesses, usual: float) -> float:
 
 
 def sheet_depth(
-    solid: TriangleMesh, thicknesses: Thicknesses, usual: float, spacing: float, monitor: Monitor
-) -> SheetDepth:
+    solid: TriangleMesh,
+    thicknesses: Thicknesses,
+    usual: float,
+    spacing: float,
+    monitor: Monitor,
+    lengths: ThicknessField | None = None,
+) -> Depth:
     """The depth below the faces of a solid whose skin is not alike everywhere.
 
     Args:
@@ -251,17 +290,26 @@ def sheet_depth(
         usual: thickness of the skin below all other faces, mm.
         spacing: of the samples on the surface, mm.
         monitor: for progress and cancel.
+        lengths: what that follows, nowhere thinner; None where it is the same below all of them.
     """
     surface = monitor.call(lambda: index_surface(solid, spacing))
     groups = [(thicknesses.usual, usual)] if thicknesses.usual.any() else []
     groups = sorted([*groups, *thicknesses.others], key=lambda group: group[1])
     sheets = [
-        (surface if faces.all() else surface.without(~faces), length) for faces, length in groups
-    ]
-    index, thinnest = sheets[0]
-    first = Depth(index, thinnest, monitor)
+        Depth(
+            surface if faces.all() else surface.without(~faces), length, monitor,
+            lengths=lengths if faces is thicknesses.usual else None,
+        )
+        for faces, length in groups
+    ]  # fmt: skip
+    first, *others = sheets
     is_open = thicknesses.is_open
     if is_open is not None:
-        first = OpenDepth(index, thinnest, monitor, solid, surface, BEYOND * thinnest)
+        first = OpenDepth(
+            first.index, first.thickness, monitor, solid, surface, BEYOND * first.thickness,
+            lengths=first.lengths,
+        )  # fmt: skip
+    if not others:
+        return first
     part = None if is_open is None else solid
-    return SheetDepth(index, thinnest, monitor, first, tuple(sheets[1:]), part)
+    return SheetDepth(first.index, first.thickness, monitor, first, tuple(others), part)

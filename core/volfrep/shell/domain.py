@@ -16,6 +16,7 @@ from ..util.progress import Monitor
 from ..util.types import Bools
 from .depth import Depth, sheet_depth, thinnest_of
 from .offset import TOLERANCE, InnerWall, inner_wall, without_small
+from .thickness_field import ThicknessField, thickness_field
 
 #: Rooms between a wall and bodies that are kept solid are filled where they are smaller than this,
 #: in cubes of the skin's least thickness.
@@ -85,10 +86,11 @@ def find_domain(solid: TriangleMesh, skin: Skin | None, monitor: Monitor) -> Dom
 def _uneven(solid: TriangleMesh, skin: Skin, monitor: Monitor) -> tuple[InnerWall, Bools | None]:
     """The wall of a skin that is not alike everywhere, and which triangles are open."""
     lengths = skin.thicknesses(solid)
-    thinnest = thinnest_of(lengths, skin.thickness)
+    thinnest, field = thinnest_of(lengths, skin.thickness), field_of(solid, skin)
+    uneven = partial(_depth, solid, lengths, skin.thickness, monitor, field)
     found = inner_wall(
         solid, thinnest, monitor, lengths.is_open,
-        partial(_depth, solid, lengths, skin.thickness, monitor) if lengths.others else None,
+        uneven if lengths.others or field is not None else None,
     )  # fmt: skip
     if skin.bodies and len(found.mesh.triangles):
         less = partial(_less, found.mesh, skin.bodies, SMALLEST_ROOM * thinnest**3)
@@ -96,10 +98,22 @@ def _uneven(solid: TriangleMesh, skin: Skin, monitor: Monitor) -> tuple[InnerWal
     return found, lengths.is_open
 
 
+def field_of(solid: TriangleMesh, skin: Skin) -> ThicknessField | None:
+    """What the thickness of a part's skin follows; None where it is the same below all faces."""
+    if skin.field is None:
+        return None
+    return thickness_field(skin.field, skin.thickness, *solid.bounds)
+
+
 def _depth(
-    solid: TriangleMesh, lengths: Thicknesses, usual: float, monitor: Monitor, spacing: float
+    solid: TriangleMesh,
+    lengths: Thicknesses,
+    usual: float,
+    monitor: Monitor,
+    field: ThicknessField | None,
+    spacing: float,
 ) -> Depth:
-    return sheet_depth(solid, lengths, usual, spacing, monitor)
+    return sheet_depth(solid, lengths, usual, spacing, monitor, field)
 
 
 def _less(cavity: TriangleMesh, bodies: tuple[TriangleMesh, ...], smallest: float) -> TriangleMesh:

@@ -143,7 +143,7 @@ class DepthField:
             middle = (cube + top // 2) * COARSEST
             size = top * COARSEST * self.unit
             value = self._values(middle)[0]
-            reach = 0.5 * np.sqrt(3.0) * size
+            reach = 0.5 * np.sqrt(3.0) * size * depth.steepest
             # By so much the distance may be too long (`SurfaceIndex.near`).
             error = np.where(self._inside(middle), depth.error, depth.index.spacing)
             if self._plain is not None:

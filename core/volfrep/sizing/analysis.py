@@ -12,6 +12,7 @@ from ..fem.model import Case
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
 from .node_radii import NodeRadii
+from .skin_thickness import SkinThickness
 from .structure import Structure
 from .strut_results import buckling_loads, columns_of, stresses
 from .tapered_beams import energies
@@ -34,6 +35,8 @@ class Limits:
         buckling: how many times the load may be before the first strut buckles by itself.
         frequency: the lowest natural one, Hz, with the first case's supports.
         frame_buckling: how many times it may be before struts buckle together.
+        skin_stress: von Mises on both sides of a skin that is varied, MPa, on all but
+            `skin_thickness.PEAKS` of its area.
     """
 
     stress: float | None = None
@@ -41,6 +44,7 @@ class Limits:
     buckling: float | None = None
     frequency: float | None = None
     frame_buckling: float | None = None
+    skin_stress: float | None = None
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
@@ -69,6 +73,7 @@ class Problem:
             not at all.
         felt: (m,) how many times as stressed struts are as their beams say, where another solver
             has found more; None for as they say.
+        skin: what of the variables is the skin's; None where it is not varied.
     """
 
     structure: Structure
@@ -79,6 +84,13 @@ class Problem:
     watched: Bools
     smoother: csr_matrix | None = None
     felt: Floats | None = None
+    skin: SkinThickness | None = None
+
+    def structure_of(self, radii: Floats) -> Structure:
+        """The structure with the skin of a design."""
+        if self.skin is None:
+            return self.structure
+        return self.structure.with_blocks(self.skin.blocks(radii))
 
     def smoothed(self, radii: Floats) -> Floats:
         """The radii, evened out."""
@@ -105,7 +117,9 @@ class Analysis:
             where they never do; nan where it was not asked for.
         uses: by the name of each limit that is given, the largest share of it that is used: 1 at
             the limit.
-        worst: by the same names, the case (or -1) and the strut or node where that is.
+        worst: by the same names, the case (or -1) and the strut, node or shell where that is.
+        skin_stress: (t, k) the larger von Mises stress of both sides of the shells of a skin that
+            is varied, MPa; None without one.
     """
 
     radii: Floats
@@ -120,6 +134,7 @@ class Analysis:
     factors: Floats
     uses: dict[str, float]
     worst: dict[str, tuple[int, int]]
+    skin_stress: Floats | None = None
 
     @property
     def most_used(self) -> float:
@@ -163,7 +178,7 @@ def analyse(
     Raises:
         VolfrepError: a part of the structure can move freely.
     """
-    structure, beams = problem.structure, problem.structure.beams
+    structure, beams, skin = problem.structure_of(radii), problem.structure.beams, problem.skin
     of_struts = problem.radii.of_struts(radii)
     moved, factors = structure.displacements(of_struts, problem.cases)
     forces = structure.forces(of_struts, moved)
@@ -182,6 +197,12 @@ def analyse(
         strut, _, case = np.unravel_index(int(np.argmax(stress)), stress.shape)
         uses["stress"] = float(stress.max()) / limits.stress
         worst["stress"] = int(case), int(strut)
+    on_skin = None if skin is None else skin.stresses(radii, moved)
+    if limits.skin_stress is not None and skin is not None and on_skin is not None:
+        felt = skin.felt(on_skin)
+        worst_shell = int(np.argmax(felt))
+        uses["skin stress"] = float(felt[worst_shell]) / limits.skin_stress
+        worst["skin stress"] = int(np.argmax(on_skin[worst_shell])), worst_shell
     if limits.buckling is not None:
         strut, case = np.unravel_index(int(np.argmax(buckling)), buckling.shape)
         uses["buckling"] = float(buckling.max()) * limits.buckling
@@ -212,23 +233,26 @@ def analyse(
     factor_of = np.array([found[0] for found, _ in together] or [np.nan] * len(factors))
     analysis = Analysis(
         radii, problem.radii.volume(radii), compliance, moved, size.max(axis=0), forces,
-        stress, buckling, frequency, factor_of, uses, worst,
+        stress, buckling, frequency, factor_of, uses, worst, on_skin,
     )  # fmt: skip
     if not with_changes:
         return analysis, None
 
     slopes = beams.flexibility_changes(of_struts)
 
-    def change(one: Floats, other: Floats) -> Floats:
-        """(n, k) of the work of forces in the strain of others."""
+    def change(one: Floats, other: Floats, first: Floats, second: Floats) -> Floats:
+        """(n, k) of the work of forces in the strain of others, which are those of motions."""
         work = energies(one, other)
-        return np.stack(
+        result = np.stack(
             [
                 problem.radii.to_nodes(np.einsum("mf,mef->me", work[:, :, k], slopes))
                 for k in range(work.shape[2])
             ],
             axis=1,
         )
+        if skin is not None:
+            result -= skin.to_variables(radii, skin.work(radii, first, second))
+        return result
 
     def heavier(other: Floats) -> Floats:
         """(n, k) of the work of what acceleration pulls with in displacements (nodes, 6, k)."""
@@ -237,7 +261,7 @@ def analyse(
             if any(case.acceleration):
                 pull = np.zeros(moved.shape[:2])
                 pull[:, :3] = case.acceleration
-                result[:, k] = _mass_change(problem, of_struts, other[:, :, k], pull)
+                result[:, k] = _mass_change(problem, radii, other[:, :, k], pull)
         return result
 
     of_displacement = of_frequency = moved_uses = None
@@ -253,20 +277,20 @@ def analyse(
         way[far, :3, every] = moved[far, :3, at] / reach[:, None]
         back = structure.answers([factors[k] for k in at], way)
         virtual = structure.forces(of_struts, back)
-        of_displacement = change(virtual, forces[:, :, at])
+        of_displacement = change(virtual, forces[:, :, at], back, moved[:, :, at])
         for row, k in enumerate(columns_at):
             pull = np.zeros(moved.shape[:2])
             pull[:, :3] = problem.cases[k].acceleration
             if pull.any():
-                of_displacement[:, row] += _mass_change(problem, of_struts, back[:, :, row], pull)
+                of_displacement[:, row] += _mass_change(problem, radii, back[:, :, row], pull)
         of_displacement = of_displacement / limits.displacement
         moved_uses = size[far, at] / limits.displacement
     if limits.frequency is not None and mode is not None:
         strained = structure.forces(of_struts, mode)
         rate = (2.0 * np.pi * frequency) ** 2
         # d w2 = mode (dK - w2 dM) mode, and dK is - K dF K.
-        stiffer = -change(strained, strained)[:, 0]
-        mass = _mass_change(problem, of_struts, mode[:, :, 0], mode[:, :, 0])
+        stiffer = -change(strained, strained, mode, mode)[:, 0]
+        mass = _mass_change(problem, radii, mode[:, :, 0], mode[:, :, 0])
         of_frequency = -0.5 * (stiffer - rate * mass) / rate * limits.frequency / frequency
     of_frame, frame_uses = [], []
     for k, (found, modes) in enumerate(together):
@@ -275,7 +299,7 @@ def analyse(
         frame_uses.append(asked / found[lowest])
         for place, mode in zip(found[lowest], modes.transpose(2, 0, 1)[lowest], strict=True):
             own = forces[:, :, k]
-            stiffer = _columns_change(problem, of_struts, place * own, mode)
+            stiffer = _columns_change(problem, radii, place * own, mode)
             strain = place * columns.turned_by(place * own, mode)
             way, held_by = beams.strained(columns.flexibility, strain)
             pull = np.zeros(moved.shape[:2])
@@ -283,12 +307,12 @@ def analyse(
             np.add.at(pull, beams.struts[:, 1], way[:, 1])
             back = structure.answers(factors[k : k + 1], pull[:, :, None])
             virtual = structure.forces(of_struts, back) - held_by[:, :, None]
-            more = change(virtual, forces[:, :, k : k + 1])[:, 0]
+            more = change(virtual, forces[:, :, k : k + 1], back, moved[:, :, k : k + 1])[:, 0]
             if any(problem.cases[k].acceleration):
                 everywhere = np.repeat(back, len(problem.cases), axis=2)
                 more = more + heavier(everywhere)[:, k]
             of_frame.append(-(stiffer + more) * asked / place**2)
-    of_compliance = change(forces, forces) + 2.0 * heavier(moved)
+    of_compliance = change(forces, forces, moved, moved) + 2.0 * heavier(moved)
     return analysis, Changes(
         of_compliance, of_displacement, of_frequency,
         np.stack(of_frame, axis=1) if of_frame else None,
@@ -315,9 +339,9 @@ def _far(size: Floats, nodes: Floats) -> Ints:
     return np.array(kept, np.int64)
 
 
-def _columns_change(problem: Problem, of_struts: Floats, forces: Floats, mode: Floats) -> Floats:
+def _columns_change(problem: Problem, radii: Floats, forces: Floats, mode: Floats) -> Floats:
     """(n,) derivative of mode K mode to the radii at the nodes, under the same forces (m, 6)."""
-    beams = problem.structure.beams
+    beams, of_struts = problem.structure.beams, problem.radii.of_struts(radii)
 
     def felt(radii: Floats) -> Floats:
         return columns_of(beams, radii).work(forces, mode)
@@ -327,15 +351,19 @@ def _columns_change(problem: Problem, of_struts: Floats, forces: Floats, mode: F
         step = np.zeros(of_struts.shape)
         step[:, end] = 1e-4 * of_struts[:, end]
         result[:, end] = (felt(of_struts + step) - felt(of_struts - step)) / (2.0 * step[:, end])
-    return problem.radii.to_nodes(result)
+    of_all, skin = problem.radii.to_nodes(result), problem.skin
+    if skin is not None:
+        bent = mode[:, :, None]
+        of_all += skin.to_variables(radii, skin.work(radii, bent, bent))[:, 0]
+    return of_all
 
 
-def _mass_change(problem: Problem, of_struts: Floats, left: Floats, right: Floats) -> Floats:
+def _mass_change(problem: Problem, radii: Floats, left: Floats, right: Floats) -> Floats:
     """(n,) derivative of left M right to the radii at the nodes, by a step at each strut's end.
 
-    Of motions (nodes, 6); the mass is the struts'.
+    Of motions (nodes, 6); the mass is that of the struts, and of a skin that is varied.
     """
-    beams = problem.structure.beams
+    beams, of_struts = problem.structure.beams, problem.radii.of_struts(radii)
     first, second = beams.struts.T
 
     def felt(radii: Floats) -> Floats:
@@ -353,4 +381,7 @@ def _mass_change(problem: Problem, of_struts: Floats, left: Floats, right: Float
         step[:, end] = 1e-4 * of_struts[:, end]
         change = felt(of_struts + step) - felt(of_struts - step)
         result[:, end] = change / (2.0 * step[:, end])
-    return problem.radii.to_nodes(result)
+    of_all, skin = problem.radii.to_nodes(result), problem.skin
+    if skin is not None:
+        of_all += skin.to_variables(radii, skin.mass_work(radii, left, right))[:, 0]
+    return of_all

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
 import numpy as np
-from scipy.sparse import csr_matrix
+from scipy.sparse import block_diag, csr_matrix, identity
 from scipy.spatial import cKDTree
 
 from ..design.cells import UnitCell
@@ -30,6 +30,7 @@ from ..util.types import Bools, Floats, Ints
 from .analysis import Problem
 from .node_radii import NodeRadii, largest_radii
 from .skin import NO_FEET, Feet, SkinModel, ties_to
+from .skin_thickness import SkinThickness, control_points, shares_of, with_skin
 from .structure import NO_TIES, Structure
 from .tapered_beams import Elastic, beams_of, end_table
 from .union_volume import union_volume
@@ -228,6 +229,49 @@ def sizing_model(
     if skin is not None and solid is not None and domain is not None:
         skin_volume = solid.volume - domain.volume
     return SizingModel(problem, wireframe, owner, skin, on_wall, skin_volume)
+
+
+def with_sized_skin(
+    model: SizingModel,
+    wanted: Callable[[Floats], Floats],
+    bounds: tuple[float, float],
+    patch: float,
+) -> tuple[SizingModel, Floats]:
+    """A structure whose skin is varied, too.
+
+    Args:
+        model: with a skin.
+        wanted: thickness to begin with, mm, at (n, 3) points.
+        bounds: the least thickness and the largest, mm.
+        patch: how far apart the thickness is chosen, mm; inf for one everywhere.
+
+    Returns:
+        The structure, and (p,) the roots of the thicknesses to begin with.
+    """
+    problem, skin = model.problem, model.skin
+    assert skin is not None
+    places = skin.middle[skin.shells.triangles].mean(axis=1)
+    if np.isfinite(patch):
+        points = control_points(places, patch)
+        shares = shares_of(points, places, patch)
+    else:
+        points = places.mean(axis=0)[None]
+        shares = csr_matrix(np.ones((len(places), 1)))
+    varied = SkinThickness(skin, model.frame_nodes, len(problem.low), points, shares)
+    least, most = (np.full(len(points), np.sqrt(bound)) for bound in bounds)
+    first = np.clip(np.sqrt(wanted(points)), least, most)
+    whole = np.concatenate([problem.low, first])
+    structure = problem.structure
+    structure = Structure(structure.nodes, structure.beams, structure.ties, varied.blocks(whole))
+    smoother = problem.smoother
+    if smoother is not None:
+        smoother = csr_matrix(block_diag([smoother, identity(len(points))]))
+    problem = replace(
+        problem, structure=structure, radii=with_skin(problem.radii, varied), skin=varied,
+        low=np.concatenate([problem.low, least]), high=np.concatenate([problem.high, most]),
+        smoother=smoother,
+    )  # fmt: skip
+    return replace(model, problem=problem), first
 
 
 def _hanging_together(frame: Wireframe, on_wall: Bools | None) -> Bools:

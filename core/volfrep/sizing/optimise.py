@@ -25,8 +25,12 @@ _MOVE = 1.25
 #: How a use falls with all radii, as a power: stress, displacement, buckling, frequency.
 _POWERS = {"stress": 2.6, "displacement": 3.0, "buckling": 4.0, "frequency": 1.0}
 _POWERS["frame buckling"] = 4.0
+_POWERS["skin stress"] = 2.6
 #: Powers of a stress ratio, a buckling ratio and a criterion by which a radius is changed.
 _STRESSED, _BUCKLED, _CRITERION = 0.35, 0.22, 0.3
+#: Struts with this part of their largest radius cannot become thicker: the skin beside them does,
+#: by this power of their ratio.
+_FULL, _BESIDE = 0.999, 2.0
 #: Criteria over a middle one are not looked at beyond these.
 _MERITS = 1e-4, 1e4
 #: What one factor does to a design is believed when it is nearer to 1 than this.
@@ -200,7 +204,7 @@ def lightest(
     if not limits.any:
         limits = everything
     steps: list[Step] = []
-    best: list[tuple[float, Floats]] = []
+    best: list[tuple[float, Floats, Floats]] = []
     least, since, stopped = np.inf, 0, "steps"
     for number in range(most_steps):
         found, changes = analyse(problem, radii, limits, with_changes=True)
@@ -215,7 +219,7 @@ def lightest(
         if near:
             since = 0 if volume < least * (1.0 - _BETTER) else since + 1
             least = min(least, volume)
-            best = sorted([*best, (volume, scaled)], key=lambda entry: entry[0])[:_KEPT]
+            best = sorted([*best, (volume, scaled, radii)], key=lambda entry: entry[0])[:_KEPT]
         if not watch(number, steps[-1]):
             stopped = "cancelled"
             break
@@ -223,7 +227,11 @@ def lightest(
             stopped = "converged"
             break
         radii = problem.smoothed(_lighter(problem, found, changes, limits))
-    tried = [scaled_to_limits(problem, limits, chosen) for _, chosen in best or [(0.0, radii)]]
+    best = best or [(0.0, radii, radii)]
+    tried = [scaled_to_limits(problem, limits, chosen) for _, chosen, _ in best]
+    if problem.skin is not None:
+        # A skin is most of the mass: it does not become thicker everywhere for a strut or two.
+        tried.append(thicken(problem, limits, best[0][2]))
     final, holds = min(tried, key=lambda entry: (not entry[1], entry[0].volume))
     if everything != limits:
         final, holds = thicken(problem, everything, final.radii)
@@ -235,7 +243,13 @@ def uniform(problem: Problem, limits: Limits) -> tuple[Analysis, bool]:
 
     Nodes whose bounds do not allow it get the nearest that they do.
     """
-    start = np.full(len(problem.low), float(np.sqrt(problem.low.min() * problem.high.max())))
+    start, radii = np.empty(len(problem.low)), len(problem.low)
+    if problem.skin is not None:
+        radii = problem.skin.radii
+    for some in (slice(radii), slice(radii, None)):
+        low, high = problem.low[some], problem.high[some]
+        if len(low):
+            start[some] = float(np.sqrt(low.min() * high.max()))
     return scaled_to_limits(problem, limits, start)
 
 
@@ -288,7 +302,7 @@ def thicken(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, 
     """
     low = replace(problem, low=np.maximum(problem.low, radii))
     found = analyse(low, radii, limits)[0]
-    for _ in range(_THICKENINGS):
+    for _ in range(_THICKENINGS if problem.skin is None else 3 * _THICKENINGS):
         if found.most_used <= 1.0:
             return found, True
         found, changes = analyse(low, found.radii, limits, with_changes=True)
@@ -320,6 +334,19 @@ def _lighter(problem: Problem, found: Analysis, changes: Changes, limits: Limits
         part = entries.data > 0.3
         needed = np.zeros(len(radii))
         np.maximum.at(needed, entries.col[part], felt.ravel()[entries.row[part]])
+        low = np.clip(radii * needed, low, high)
+    if limits.skin_stress is not None and problem.skin is not None:
+        assert found.skin_stress is not None
+        shells = (problem.skin.felt(found.skin_stress) / limits.skin_stress) ** _STRESSED
+        needed = np.zeros(len(radii))
+        needed[problem.skin.radii :] = problem.skin.largest_near(shells)
+        # What a strut that is as thick as it may be cannot bear, the skin about it takes.
+        full = shape.of_struts(radii) >= _FULL * shape.of_struts(problem.high)
+        over = np.flatnonzero(full.all(axis=1) & (felt.max(axis=1) > 1.0))
+        beams, nodes = problem.structure.beams, problem.structure.nodes
+        near = problem.skin.nearest(nodes[beams.struts[over]].mean(axis=1))
+        needed_near = np.repeat(felt[over].max(axis=1) ** _BESIDE, near.shape[1])
+        np.maximum.at(needed, problem.skin.radii + near.ravel(), needed_near)
         low = np.clip(radii * needed, low, high)
     shared, uses = [], []
     if changes.displacement is not None and changes.displacement_uses is not None:

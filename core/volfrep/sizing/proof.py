@@ -17,7 +17,7 @@ from ..fem.beam_mesh import JOINT_STIFFNESS, BeamMesh, beam_model, ends_law
 from ..fem.calculix import find_calculix
 from ..fem.model import Case
 from ..fem.solved_frame import SolidSkin, SolvedFrame, solve_frame
-from ..fem.wedge_mesh import beyond_inner, wedge_mesh
+from ..fem.wedge_mesh import WedgeMesh, beyond_inner, wedge_mesh
 from ..grid.strut_graph import Wireframe
 from ..mechanics.frame import Ends
 from ..mechanics.materials import SolidMaterial
@@ -26,6 +26,7 @@ from ..util.types import Bools, Floats, Ints
 from .analysis import Analysis, Limits, Problem
 from .model import SizingModel
 from .skin import SkinModel
+from .skin_thickness import PEAKS, all_but
 from .strut_results import stresses
 from .tapered_beams import Beams, cross_matrix
 
@@ -51,10 +52,12 @@ class Proved:
         figures: how far the two agree, as plain JSON values.
         felt: (m,) how many times as stressed as their beams say the struts are there, 1 or more:
             of those that are stressed most.
+        skin: the skin's stress in each case, MPa, on all but a little of its area; none without.
     """
 
     figures: dict[str, Any]
     felt: Floats
+    skin: tuple[float, ...] = ()
 
     def uses(self, limits: Limits, final: Analysis) -> dict[str, float]:
         """By the name of each limit that CalculiX has a figure for, the share of it used there."""
@@ -217,6 +220,9 @@ def prove_design(
         "worst_strut_compared": compared,
         "with_the_skin": model.skin is not None,
     }
+    on_skin: tuple[float, ...] = ()
+    if solid is not None:
+        on_skin = skin_stresses(solid.mesh, found.skin[len(deck.nodes) :])
     if modes:
         result["frequencies_hz"] = found.frequencies.tolist()
         result["lowest_frequency"] = float(found.frequencies[0] / final.frequency)
@@ -226,7 +232,28 @@ def prove_design(
         ]
     result["doubts"] = doubts(result, final, [case.name for case in problem.cases])
     result["confirmed"] = not result["doubts"]
-    return Proved(result, more)
+    return Proved(result, more, on_skin)
+
+
+def skin_stresses(mesh: WedgeMesh, stress: Floats) -> tuple[float, ...]:
+    """Von Mises on either side of a skin in each case, MPa, on all but a little of its area.
+
+    Where struts stand on it, wedges are stiffer than the skin, and do not count.
+
+    Args:
+        mesh: the wedges.
+        stress: (nodes, 6, cases) at their nodes.
+    """
+    own = mesh.elements[~mesh.is_pad]
+    worst = np.zeros((len(own), stress.shape[2]))
+    for side in (own[:, :3], own[:, 3:6]):
+        xx, yy, zz, xy, yz, zx = stress[side].mean(axis=1).swapaxes(0, 1)
+        apart = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+        mises = np.sqrt(0.5 * apart + 3.0 * (xy**2 + yz**2 + zx**2))
+        worst = np.maximum(worst, mises)
+    one, two, three = mesh.nodes[own[:, 3:6]].swapaxes(0, 1)
+    area = np.linalg.norm(np.cross(two - one, three - one), axis=1)
+    return tuple(all_but(row, area, PEAKS) for row in worst.T)
 
 
 def end_stresses(solved: SolvedFrame, model: BeamMesh, beams: Beams, radii: Floats) -> Floats:

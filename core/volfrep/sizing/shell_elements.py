@@ -8,7 +8,7 @@ Mech. Eng. 192, 2003), exact for bending of rectangles; across it: the discrete 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -43,6 +43,24 @@ class Panels:
     nodes: Ints
     corners: Floats
     arms: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class UnitBlocks:
+    """What shells of a thickness t are made of: t flat + t3 bent, and t heavy + t3 turning.
+
+    Attributes:
+        rows, columns: (9 t,) nodes, of each triangle's corners with each other.
+        flat, bent: (9 t, 6, 6) stiffness in the plane and across it, for 1 mm.
+        heavy, turning: (9 t, 6, 6) mass and inertia, for 1 mm.
+    """
+
+    rows: Ints
+    columns: Ints
+    flat: Floats
+    bent: Floats
+    heavy: Floats
+    turning: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +109,35 @@ class Shells:
         mass = np.zeros_like(stiffness)
         mass[: 9 * len(weight)] = shared.reshape(-1, 6, 6)
         return Blocks(rows, columns, stiffness, mass)
+
+    def of_thickness(self, thickness: Floats) -> Shells:
+        """The same triangles with other thicknesses (t,), mm."""
+        return replace(self, thickness=thickness)
+
+    def unit_blocks(self) -> UnitBlocks:
+        """Blocks between the triangles' corners, of which any thickness can be made."""
+        count, of = len(self.triangles), self.panels.of
+        unit = self.of_thickness(np.ones(count))
+        flat, bent = np.zeros((2, count, 18, 18))
+        flat[:, _IN_PLANE[:, None], _IN_PLANE] = unit._membrane()
+        # A panel's corners hang on those of its triangle.
+        is_at = self.panels.nodes[:, :, None] == self.triangles[of][:, None, :]
+        each = unit._bending().reshape(-1, 3, 3, 3, 3)
+        whole = np.einsum("bam,baicj,bcn->bminj", is_at, each, is_at, optimize=True)
+        summed = np.zeros((count, 9, 9))
+        np.add.at(summed, of, whole.reshape(-1, 9, 9))
+        bent[:, _ACROSS[:, None], _ACROSS] = summed
+        weight = self.material.density * self.area / 12.0
+        shared = (1.0 + np.eye(3))[None, :, :, None, None] * weight[:, None, None, None, None]
+        moves, turns = np.diag([1.0] * 3 + [0.0] * 3), np.diag([0.0] * 3 + [1.0] * 3)
+        return UnitBlocks(
+            np.repeat(self.triangles, 3, axis=1).ravel(),
+            np.tile(self.triangles, (1, 3)).ravel(),
+            _split(flat, self.axes),
+            _split(bent, self.axes),
+            (shared * moves).reshape(-1, 6, 6),
+            (shared * turns / 12.0).reshape(-1, 6, 6),
+        )
 
     def stresses(self, displacements: Floats) -> Floats:
         """(t, k) the larger von Mises stress of both sides in the middle, MPa, of (n, 6, k)."""

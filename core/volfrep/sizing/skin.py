@@ -16,19 +16,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csr_matrix
+from scipy.sparse import csr_matrix, diags
 from scipy.spatial import cKDTree
 
 from ..design.openings import lie_on
 from ..fem.wedge_mesh import barycentric, corner_angles, vertex_planes
+from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .shell_elements import Shells, shells_of
+from .shell_elements import Shells, UnitBlocks, shells_of
 from .skin_mesh import even_surface
 from .structure import Blocks, Ties
 from .tapered_beams import Elastic, cross_matrix
@@ -40,6 +42,8 @@ _SOLID = 2.02
 #: What walls have in common counts as rigid by this share, and takes no more than so much of a
 #: triangle's inscribed circle. (Hollow boxes of solid bricks say so.)
 _COMMON, _RIGID_CORNER = 0.5, 0.8
+#: Stress is not told of triangles of less than this part of the mean area, or of less quality.
+_SMALL, _POOR = 0.25, 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +78,7 @@ class Joined:
 
 
 NOT_JOINED = Joined(np.empty(0, np.int64), np.empty((0, 3), np.int64), np.empty((0, 3)))
+NOTHING_BETWEEN = Blocks(*np.empty((2, 0), np.int64), *np.empty((2, 0, 6, 6)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +97,8 @@ class SkinModel:
         pads: (n,) mm, so far about a vertex that struts meet the skin is stiff; 0 elsewhere.
         joined: what hangs together where the part is solid.
         solid_share: of the shells' area, where the part is thinner than two skins.
+        room: (n,) mm, how thick the part is below each vertex, as far as that was looked at.
+        between: stiffness of what is solid between shells, which `blocks` has, too.
     """
 
     outside: TriangleMesh
@@ -103,6 +110,51 @@ class SkinModel:
     pads: Floats
     joined: Joined
     solid_share: float
+    room: Floats
+    between: Blocks
+
+    def unit_blocks(self) -> UnitBlocks:
+        """The shells' blocks for a thickness of 1 mm, between the nodes outside."""
+        units, arms = self.shells.unit_blocks(), _arms(self.outside.vertices, self.middle)
+        rows, columns = arms[units.rows].swapaxes(1, 2), arms[units.columns]
+        return replace(
+            units,
+            flat=rows @ units.flat @ columns, bent=rows @ units.bent @ columns,
+            heavy=rows @ units.heavy @ columns, turning=rows @ units.turning @ columns,
+        )  # fmt: skip
+
+    def stresses(self, displacements: Floats, shells: Shells | None = None) -> Floats:
+        """(t, k) the larger von Mises stress of both sides, MPa, of the nodes' (n, 6, k).
+
+        In a needle, or in a triangle that is much smaller than others, strain is a difference over
+        next to no way: there it is the mean of those about it.
+
+        Args:
+            displacements: mm and radians.
+            shells: of another thickness; None for its own.
+        """
+        felt = (shells or self.shells).stresses(self.of_middle(displacements))
+        return np.asarray(self._evened @ felt)
+
+    @cached_property
+    def _evened(self) -> csr_matrix:
+        """(t, t) what makes means of what is poor, of shells that share a vertex with it."""
+        triangles, area = self.shells.triangles, self.shells.area
+        count = len(triangles)
+        poor = area < _SMALL * area.mean()
+        poor |= remesh.qualities(self.middle[triangles]) < _POOR
+        every = np.repeat(np.arange(count), 3)
+        shape = (count, len(self.middle))
+        at = csr_matrix((np.ones(3 * count), (every, triangles.ravel())), shape)
+        touch = at[np.flatnonzero(poor)] @ at.T
+        touch.data[:] = 1.0
+        weight = touch @ diags(area)
+        mean = diags(1.0 / np.asarray(weight.sum(axis=1)).ravel()) @ weight
+        rows = csr_matrix(
+            (np.ones(poor.sum()), (np.flatnonzero(poor), np.arange(poor.sum()))),
+            (count, int(poor.sum())),
+        )
+        return csr_matrix(diags((~poor).astype(float)) + rows @ mean)
 
     def of_middle(self, displacements: Floats) -> Floats:
         """(n, 6, k) how the shells' corners move, of the nodes' displacements (n, 6, k)."""
@@ -127,6 +179,7 @@ def skin_model(
     monitor: Monitor | None = None,
     *,
     held: Bools | None = None,
+    thickest: float | None = None,
 ) -> SkinModel:
     """The skin of a part as shells.
 
@@ -139,6 +192,7 @@ def skin_model(
         feet: where struts meet it.
         monitor: asked for a cancel.
         held: (m,) which of the part's triangles no load case moves; None for none.
+        thickest: mm, up to which the skin may become thicker; None where it does not.
     """
     outside = even_surface(solid, edge, monitor, feet.places)
     triangles = outside.triangles.astype(np.int64)
@@ -154,7 +208,8 @@ def skin_model(
         if callable(thickness)
         else np.full(len(outside.vertices), thickness)
     )
-    room = _room(outside, triangles, normal, doubled, _SOLID * float(wanted.max()))
+    far = max(float(wanted.max()), thickest or 0.0)
+    room = _room(outside, triangles, normal, doubled, _SOLID * far)
     # Each side has its half of what is solid.
     local = np.minimum(wanted, 0.5 * room)
     kept = triangles[used]
@@ -172,7 +227,7 @@ def skin_model(
         np.maximum.at(pads, near, feet.radii)
     thick = local[kept].mean(axis=1)
     shells = shells_of(middle, kept, thick, material, clear=clear, pads=pads)
-    blocks, joined = shells.blocks(), NOT_JOINED
+    blocks, joined, between = shells.blocks(), NOT_JOINED, NOTHING_BETWEEN
     solid_nodes = np.flatnonzero(room < _SOLID * wanted)
     if len(solid_nodes) and len(kept):
         shares = np.repeat(shells.area / 3.0, 3)
@@ -189,9 +244,14 @@ def skin_model(
     blocks = replace(
         blocks, stiffness=rows @ blocks.stiffness @ columns, mass=rows @ blocks.mass @ columns
     )
+    if len(between.rows):
+        last = len(blocks.rows) - len(between.rows)
+        between = replace(between, stiffness=blocks.stiffness[last:])
     is_solid = (room < _SOLID * wanted)[kept].all(axis=1)
     solid_share = float(shells.area[is_solid].sum() / max(float(shells.area.sum()), 1e-300))
-    return SkinModel(outside, middle, inside, shells, used, blocks, pads, joined, solid_share)
+    return SkinModel(
+        outside, middle, inside, shells, used, blocks, pads, joined, solid_share, room, between
+    )
 
 
 def ties_to(skin: SkinModel, nodes: Floats, rows: Ints, offset: int) -> Ties:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -105,6 +106,14 @@ class Structure:
         object.__setattr__(self, "_pattern", pattern)
         object.__setattr__(self, "_tied", tied)
         object.__setattr__(self, "_ends", (leaders, blocks))
+
+    def with_blocks(self, blocks: Blocks) -> Structure:
+        """The same with other numbers in its fixed blocks, whose nodes are the same."""
+        result = copy(self)
+        for name in ("_fixed_stiffness", "_fixed_mass"):
+            result.__dict__.pop(name, None)
+        object.__setattr__(result, "fixed_blocks", blocks)
+        return result
 
     def factored(self, radii: Floats, held: Bools) -> Factored:
         """The stiffness of struts with these radii (m, 2), ready to be solved.

@@ -234,7 +234,7 @@ def inputs_and_outputs() -> Iterator[tuple[str, str, str]]:
         reads = set(run_options.INPUTS) - of_runs | {row.stored for row in rows if row.reads}
         writes = {row.stored for row in rows if row.writes}
         if command == "block":
-            reads -= {"part", "network_file", "network_field"}
+            reads -= {"part", "network_file", "network_field", "skin_field"}
         for source in sorted(reads):
             yield from ((command, source, output) for output in sorted(writes))
 
@@ -256,6 +256,7 @@ def test_no_output_is_an_input(
         "spec": tmp_path / "own.toml",
         "cell": tmp_path / "own.json",
         "radius_field": tmp_path / "field.csv",
+        "skin_field": tmp_path / "thickness.csv",
         "network_file": tmp_path / "graph.csv",
         "network_field": tmp_path / "dense.csv",
         "material": tmp_path / "metal.toml",
@@ -267,6 +268,7 @@ def test_no_output_is_an_input(
     files["spec"].write_text("cell_size = 10.0\n")
     save_cell(UnitCell("own", box.nodes, box.struts), files["cell"])
     files["radius_field"].write_text("x,y,z,v\n0,0,0,1\n9,0,0,2\n")
+    files["skin_field"].write_text("x,y,z,v\n0,0,0,1\n9,0,0,2\n")
     files["network_file"].write_text("0,0,0,9,9,9")
     files["as_printed"].write_text("inclination,nominal,measured\n0,1,1.1\n90,1,1.0\n")
     files["network_field"].write_text("x,y,z,v\n0,0,0,1\n9,0,0,2\n")
@@ -285,13 +287,16 @@ def test_no_output_is_an_input(
         arguments += ["--cell", files["cell"]]
     if command == "size":
         arguments += ["--loads", files["loads"], "--radii", outputs["radii"]]
-        arguments += ["--plot", outputs["plot"]]
+        arguments += ["--plot", outputs["plot"], "--skin-thinnest", 1]
+        arguments += ["--thickness", outputs["thickness"]]
     else:
         arguments += ["--material", files["material"]]
     arguments += ["--strut-radius", 1, "--radius-grading", "field"]
     arguments += ["--radius-field", files["radius_field"], "--radius-curve", "1:1,2:0.8"]
     if source == "as_printed":
         arguments += ["--as-printed", files["as_printed"]]
+    if source == "skin_field":
+        arguments += ["--skin-field", files["skin_field"]]
     if source == "network_file":
         arguments += ["--network", "file", "--network-file", files["network_file"]]
     if source == "network_field":

@@ -19,10 +19,10 @@ from ..scattered_field import PointField
 
 #: Keywords that take a field, whose values are: mm; mm; shares; what `radius_start` and
 #: `radius_end`, or `radius_curve`, map to mm; what `network_density` is a formula of; how dense
-#: points lie.
+#: points lie; mm.
 FIELD_KEYWORDS = (
     "strut_radius", "wall_thickness", "relative_density", "radius_field", "network_field",
-    "network_density",
+    "network_density", "skin_field",
 )  # fmt: skip
 _OF_PLACE = re.compile(r"\b[xyz]\b")
 

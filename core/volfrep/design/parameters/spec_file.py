@@ -147,7 +147,7 @@ def with_paths(name: str, value: Any, change: Callable[[str], str]) -> Any:
 
 def is_path(name: str, value: Any) -> bool:
     """Whether a value of a parameter names a file."""
-    files = ("radius_field", "network_file", "network_field")
+    files = ("radius_field", "network_file", "network_field", "skin_field")
     return name in files or (name == "cell" and str(value).lower().endswith(".json"))
 
 

@@ -70,6 +70,8 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
             "leave them out."
         )
     parts = _fields(used)
+    if isinstance(parts[""]["skin_field"], str):
+        parts[""]["skin_field"] = read_point_field(parts[""]["skin_field"])
     return LatticeSpec(
         **parts[""] | {"strut_radius": radius},
         **_skin_of(used),
@@ -254,6 +256,7 @@ _AS_VALUE: dict[str, Callable[[Any], Any]] = {
     "size_grading": _word,
     "radius_profile": _word,
     "radius_field": _radius_file,
+    "skin_field": lambda field: field_file(field, "the skin follows"),
     "radius_curve": lambda curve: ", ".join(f"{value!r}:{radius!r}" for value, radius in curve),
     "network_field": lambda field: field_file(field, "the points' density follows"),
 }

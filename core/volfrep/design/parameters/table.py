@@ -313,6 +313,12 @@ PARAMETERS = (
         in_freecad=False, of_block=False,
     ),
     Parameter(
+        "skin_field", "file", "Openings",
+        "File of points and thicknesses of the skin, which it follows below all other faces, "
+        "nowhere thinner than the shell",
+        in_freecad=False, of_block=False, field="skin_field",
+    ),
+    Parameter(
         "keep_solid_around", "faces", "Openings",
         "Faces round which the part stays solid, up to KeepDistance, and solids whose room in it "
         "does",

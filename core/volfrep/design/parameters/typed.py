@@ -223,6 +223,10 @@ class Keywords(TypedDict, total=False):
     by a point and a normal; the last number is the thickness, and 0 leaves them open; may be
     repeated.
     """
+    skin_field: str | ByPlace
+    """File of points and thicknesses of the skin, which it follows below all other faces, nowhere
+    thinner than the shell; or by place.
+    """
     stiffness: Any
     """In place of the radius: Young's modulus of the lattice along 100, 110, 111 or X,Y,Z of its
     cell, in MPa where a material is given, else in units of the solid's.
@@ -261,3 +265,7 @@ class SizeKeywords(Keywords, total=False):
     thinnest: float
     thickest: float
     smooth: float
+    skin_thinnest: float
+    skin_thickest: float
+    skin_patch: float
+    sized_mass: float

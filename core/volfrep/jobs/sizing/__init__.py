@@ -11,6 +11,7 @@ from .sizing import (
     values_with_radii,
     write_radii,
 )
+from .skin_search import write_thickness
 
 __all__ = [
     "GOALS",
@@ -23,4 +24,5 @@ __all__ = [
     "solve_struts",
     "values_with_radii",
     "write_radii",
+    "write_thickness",
 ]

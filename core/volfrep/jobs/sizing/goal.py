@@ -12,10 +12,12 @@ from ...sizing.analysis import Limits
 from ...util.arguments import check_kind
 from ...util.errors import VolfrepError
 
-#: What a user may want: limits, or a mass of struts, and between which radii, how even.
+#: What a user may want: limits, or a mass of struts, and between which radii, how even; between
+#: which thicknesses of the skin, and how far apart these are chosen.
 GOALS = (
     "max_stress", "safety", "max_displacement", "buckling", "min_frequency", "strut_mass",
-    "thinnest", "thickest", "smooth",
+    "thinnest", "thickest", "smooth", "skin_thinnest", "skin_thickest", "skin_patch",
+    "sized_mass",
 )  # fmt: skip
 
 
@@ -25,10 +27,16 @@ class Goal:
 
     Attributes:
         limits: none is gone beyond; without any, stiffness is what is wanted.
-        volume: mm3 of struts for the most stiffness; None for that of the specification's radius.
+        volume: mm3 of struts, and of a skin that is sized, for the most stiffness; None for what
+            the specification makes.
         thinnest: mm, the thinnest strut that may be; None for half the specification's radius.
         thickest: mm, the thickest; None for what the cell bears.
         smooth: share that a node's neighbours have in its radius, from 0 to 0.9.
+        skin_thinnest: mm, the thinnest skin that may be, where its thickness is chosen together
+            with the radii; None where it is the specification's.
+        skin_thickest: mm, the thickest; None for half the cell size.
+        skin_patch: mm, how far apart values of the skin's thickness are chosen, which is smooth
+            between; inf for one thickness everywhere, None for the cell size.
         remove_thin: take away struts that end as thin as they may be, and size the rest again.
         weights: of the load cases, for stiffness; None for all alike.
     """
@@ -39,6 +47,9 @@ class Goal:
     thickest: float | None = None
     smooth: float = 0.0
     weights: tuple[float, ...] | None = None
+    skin_thinnest: float | None = None
+    skin_thickest: float | None = None
+    skin_patch: float | None = None
     remove_thin: bool = False
 
 
@@ -64,7 +75,7 @@ def goal_of(
     for name in given:
         if name not in GOALS:
             raise VolfrepError(f"There is no goal '{named(name)}': choose from {', '.join(GOALS)}.")
-    for name in ("safety", "strut_mass"):
+    for name in ("safety", "strut_mass", "sized_mass"):
         if not given.get(name, 1.0) > 0.0:
             raise VolfrepError(f"{named(name)} must be above 0, not {given[name]:g}.")
     stress = given.get("max_stress")
@@ -81,11 +92,27 @@ def goal_of(
             )
         stress = material.yield_stress / given["safety"]
     volume = None
-    if "strut_mass" in given:
-        volume = given["strut_mass"] * 1000.0 / material.density
+    for name in ("strut_mass", "sized_mass"):
+        if name not in given:
+            continue
+        if (name == "sized_mass") != ("skin_thinnest" in given):
+            raise VolfrepError(
+                f"{named('sized_mass')} is the mass of struts and of a skin that "
+                f"{named('skin_thinnest')} has sized, {named('strut_mass')} that of struts where "
+                "the skin is not sized: give the other one."
+            )
+        volume = given[name] * 1000.0 / material.density
     limits = Limits(
         stress, given.get("max_displacement"), given.get("buckling"), given.get("min_frequency")
     )
+    for other in ("skin_thickest", "skin_patch"):
+        if other not in given or "skin_thinnest" in given:
+            continue
+        raise VolfrepError(
+            f"{named(other)} has no effect without {named('skin_thinnest')}: add that or leave it."
+        )
     return Goal(
-        limits, volume, given.get("thinnest"), given.get("thickest"), given.get("smooth", 0.0)
-    )
+        limits, volume, given.get("thinnest"), given.get("thickest"), given.get("smooth", 0.0),
+        skin_thinnest=given.get("skin_thinnest"), skin_thickest=given.get("skin_thickest"),
+        skin_patch=given.get("skin_patch"),
+    )  # fmt: skip

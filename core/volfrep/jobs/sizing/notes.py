@@ -9,9 +9,9 @@ import numpy as np
 
 from ...design.spec import LatticeSpec
 from ...fem.beam_mesh import MEASURED_TO
-from ...reports.sizing_report import PEAKS
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel
+from ...sizing.skin_thickness import PEAKS
 from ...util.types import Floats
 from ..infill import Infill
 
@@ -202,16 +202,25 @@ def hardly_beams(infill: Infill, model: SizingModel, radii: Floats, cell_size: f
     ]
 
 
-def stressed_skin(model: SizingModel, analysis: Analysis, limits: Limits) -> list[str]:
-    """A sentence where the skin, which is not sized, is stressed by more than the limit."""
+def stressed_skin(
+    model: SizingModel, analysis: Analysis, limits: Limits, is_sized: bool
+) -> list[str]:
+    """A sentence where the skin is stressed by more than the limit."""
     if model.skin is None or limits.stress is None:
         return []
-    shells = model.skin.shells
-    moved = model.skin.of_middle(analysis.displacements[model.frame_nodes :])
-    felt = shells.stresses(moved).max(axis=1)
+    shells, nodes = model.skin.shells, analysis.displacements[model.frame_nodes :]
+    if is_sized:
+        felt = model.skin.stresses(nodes).max(axis=1)
+    else:
+        felt = shells.stresses(model.skin.of_middle(nodes)).max(axis=1)
     over = float(shells.area[felt > limits.stress].sum() / shells.area.sum())
     if over <= PEAKS:
         return []
+    if is_sized:
+        return [
+            f"The skin is stressed by more than {limits.stress:.4g} MPa on {over:.1%} of its area: "
+            "allow a thicker one, or choose its thickness nearer to each other."
+        ]
     return [
         f"The skin, which is not sized, is stressed by more than {limits.stress:.4g} "
         f"MPa on {over:.1%} of its area, mostly where it is held and loaded: make it "

@@ -5,13 +5,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from ...design.spec import LatticeSpec
 from ...grid.strut_graph import Wireframe
 from ...loads.load_cases import LoadCases
+from ...mesh import remesh
 from ...mesh.triangle_mesh import TriangleMesh
+from ...shell.domain import field_of
+from ...shell.thickness_field import ThicknessField
 from ...sizing.model import SizingModel, elastic, feet_of, held_facets, sizing_model
 from ...sizing.node_radii import smoothing
 from ...sizing.skin import skin_model
@@ -24,10 +28,17 @@ from .goal import Goal
 
 #: Edges of the skin's triangles over its thickness, at least.
 SKIN_EDGE_LEAST = 1.5
+#: Steps in which the wall is found below a point; each leaves less than half of what was missing.
+_ALONG = 6
 
 
 def part_model(
-    infill: Infill, loads: LoadCases, goal: Goal, cache: StageCache, reach: Floats | None = None
+    infill: Infill,
+    loads: LoadCases,
+    goal: Goal,
+    cache: StageCache,
+    reach: Floats | None = None,
+    thickest: float | None = None,
 ) -> SizingModel:
     """The part as it is solved.
 
@@ -38,6 +49,7 @@ def part_model(
         cache: keeps the costly stages of the part.
         reach: (n,) mm, radii at the nodes by which struts hold the skin; None for the
             specification's.
+        thickest: mm, up to which the skin may become thicker; None where it does not.
 
     Raises:
         VolfrepError: there are no struts that could be sized, or the radii make no sense.
@@ -83,7 +95,7 @@ def part_model(
                     wireframe, clipped, infill.domain.mesh,
                     given_radii(wireframe) if reach is None else reach,
                 ),
-                infill.monitor, held=held_facets(infill.solid, loads.cases),
+                infill.monitor, held=held_facets(infill.solid, loads.cases), thickest=thickest,
             )  # fmt: skip
     model = sizing_model(
         wireframe, clipped, spec.kind.cube, infill.filling.spacing, material, loads.cases,
@@ -107,7 +119,21 @@ def thickness_of_skin(solid: TriangleMesh, spec: LatticeSpec) -> float | Callabl
     """A skin's thickness, mm, or at points of the part's surface where it is not even."""
     if spec.skin is None or spec.skin.is_even:
         return spec.shell
+    field = field_of(solid, spec.skin)
+    if field is not None and not (spec.skin.face_skins or spec.skin.keep_solid):
+        return partial(_thickness_along, solid, field)
     below = spec.skin.below(solid)
     # Where a face is open there are no shells: any thickness will do.
     below = np.where(below > 0.0, below, spec.shell)
     return lambda points: np.asarray(below[closest_points(solid, points)[2]])
+
+
+def _thickness_along(solid: TriangleMesh, field: ThicknessField, points: Floats) -> Floats:
+    """(n,) mm, how far below points of the surface the wall is where thickness follows a field."""
+    triangle = closest_points(solid, points)[2]
+    normal = remesh.normals(solid.vertices[solid.triangles[triangle]])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    depth = field(points)
+    for _ in range(_ALONG):
+        depth = field(points - depth[:, None] * normal)
+    return depth

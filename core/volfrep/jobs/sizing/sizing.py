@@ -19,7 +19,7 @@ from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.sizing_report import sizing_report
 from ...sizing.analysis import Analysis, Limits, Problem, analyse
 from ...sizing.model import SizingModel
-from ...sizing.optimise import Sized, Step, Watch, lightest, stiffest, thicken, uniform
+from ...sizing.optimise import HOLDS, Sized, Step, Watch, lightest, stiffest, thicken, uniform
 from ...sizing.proof import Proved, correct_problem, prove_design
 from ...sizing.strut_state import StrutState, strut_states
 from ...util.cache import StageCache
@@ -44,9 +44,13 @@ from .notes import (
 )
 from .part_model import given_radii, part_model
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, without_thin_struts
+from .skin_search import SkinDesign, design_skin, skin_peaks, thickness_there
 
 #: So many times a design is made thicker because of what CalculiX finds.
 CORRECTIONS = 3
+#: A skin is held to this part of its limit of stress, as its middle moves a little yet; and is
+#: chosen so many times. It holds its limit when that is used no more than so.
+MARGIN, SKINS, SKIN_HOLDS = 0.98, 2, 1.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +123,10 @@ def size(
     task = _prepare(solid, spec, loads, _checked(goal or Goal()), monitor, cache, progress)
     seconds = {"model": time.perf_counter() - start}
     start = time.perf_counter()
-    search = _search(task, most_steps, watch)
+    if task.goal.skin_thinnest is not None:
+        task, search = _with_sized_skin(task, most_steps, watch)
+    else:
+        search = _search(task, most_steps, watch)
     task.notes.extend(_notes_of(task, search))
     sized, proof = _prove(task, search, prove_it)
     before = _of_one_radius(task, sized.analysis)
@@ -140,6 +147,7 @@ class _Task:
         notes: what the user is told, so far.
         monitor: of the whole job.
         cache: of the part's stages.
+        skin: the skin that was chosen; None where it is the specification's.
     """
 
     infill: Infill
@@ -150,6 +158,7 @@ class _Task:
     notes: list[str]
     monitor: Monitor
     cache: StageCache
+    skin: SkinDesign | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,6 +215,50 @@ def _prepare(
     return _Task(infill, loads, goal, model, first, notes, monitor, cache)
 
 
+def _with_sized_skin(
+    task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | None
+) -> tuple[_Task, _Search]:
+    """The part with a skin whose thickness is chosen with the radii, and its design.
+
+    The skin is as it goes into the file; where it is stressed by more than its limit then, it is
+    chosen once more for so much less.
+
+    Raises:
+        Cancelled: by the monitor, before there was a design; afterwards it ends the search.
+    """
+    infill, goal = task.infill, task.goal
+    spec, limit = infill.spec, goal.limits.stress
+
+    def told(number: int, step: Step) -> bool:
+        try:
+            task.monitor.tick(min((number + 1) / (2.5 * most_steps), 1.0))
+        except Cancelled:
+            return False
+        return watch is None or watch(number, step)
+
+    design: SkinDesign | None = None
+    margin, chosen = MARGIN, task
+    for _ in range(SKINS):
+        with task.monitor.stage("sizing", 0.4, 0.9), _named(task.model.problem):
+            design = design_skin(
+                infill.solid, spec, task.loads, goal, task.monitor, task.cache, design,
+                most_steps=most_steps, watch=told, margin=margin,
+            )  # fmt: skip
+        part = Infill(infill.solid, design.spec, monitor=task.monitor, cache=task.cache)
+        model = part_model(part, task.loads, goal, task.cache)
+        first = design.radii_at(model.wireframe.nodes)
+        first = np.clip(first, model.problem.low, model.problem.high)
+        chosen = replace(task, infill=part, model=model, first=first, skin=design)
+        search = _search(chosen, most_steps, told)
+        if limit is None or search.sized.stopped == "cancelled":
+            break
+        used = max(skin_peaks(search.model, search.sized.analysis)) / limit
+        if used <= HOLDS:
+            break
+        margin *= 0.995 / used
+    return chosen, search
+
+
 def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | None) -> _Search:
     """The design with all struts, and with those that carry little taken away where that is asked.
 
@@ -223,7 +276,10 @@ def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | N
 
     with task.monitor.stage("sizing", 0.4, 0.95):
         with _named(problem):
-            whole = _designed(problem, goal, task.first, most_steps, told)
+            if task.skin is None:
+                whole = _designed(problem, goal, task.first, most_steps, told)
+            else:
+                whole = _with_this_skin(problem, goal, task.first, task.skin)
             even = uniform(problem, goal.limits) if goal.limits.any else None
         if even is not None:
             whole = _no_worse(whole, even)
@@ -233,11 +289,20 @@ def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | N
     return _Search(task.model if taken is None else taken.model, sized, whole, even, taken)
 
 
+def _with_this_skin(problem: Problem, goal: Goal, first: Floats, skin: SkinDesign) -> Sized:
+    """The radii that were found with a skin, no thinner, as they hold the limits with it."""
+    if goal.limits.any:
+        found, holds = thicken(problem, goal.limits, first)
+    else:
+        found, holds = analyse(problem, first, goal.limits)[0], True
+    return replace(skin.sized, analysis=found, steps=skin.steps, holds=holds)
+
+
 def _notes_of(task: _Task, search: _Search) -> list[str]:
     """What the user is told of a search's end."""
     limits, model, sized = task.goal.limits, search.model, search.sized
     notes = [] if sized.holds else [limit_not_held(model.problem, sized.analysis)]
-    notes += stressed_skin(model, sized.analysis, limits)
+    notes += stressed_skin(model, sized.analysis, limits, task.skin is not None)
     notes += free_motions(model.problem)
     notes += left_out(task.infill.spec) + stiff_skin(model, limits)
     if sized.stopped == "cancelled":
@@ -260,6 +325,9 @@ def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[st
         )
 
     proof = None
+    limit = limits.stress if task.skin is not None else None
+    if limit is not None and max(skin_peaks(model, final)) > SKIN_HOLDS * limit:
+        sized = replace(sized, holds=False)
     if prove_it and sized.stopped != "cancelled":
         try:
             with task.monitor.stage("proof", 0.95, 1.0):
@@ -274,6 +342,14 @@ def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[st
                     proof = solve_again(problem, final)
                     if not holds:
                         break
+                if proof is not None and limit is not None:
+                    felt = max(proof.skin)
+                    if felt > SKIN_HOLDS * limit:
+                        sized = replace(sized, holds=False)
+                        notes.append(
+                            f"The skin's stress is {felt:.4g} MPa in CalculiX, of {limit:.4g} MPa "
+                            "allowed: ask for a higher safety."
+                        )
                 if proof is not None and sized.holds and not proof.holds(limits, final):
                     sized = replace(sized, holds=False)
                     notes.append(unproved(problem, proof.uses(limits, final), final))
@@ -290,6 +366,8 @@ def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[st
         proof.figures["confirmed"] = not doubts
         notes += not_confirmed(doubts)
         figures = {**proof.figures, "uses": proof.uses(limits, final)}
+        if task.skin is not None:
+            figures["skin_stress_mpa"] = list(proof.skin)
     notes += hardly_beams(task.infill, model, final.radii, length)
     return replace(sized, analysis=final), figures
 
@@ -326,6 +404,13 @@ def _record(
         seconds=seconds, notes=tuple(task.notes),
         unthinned=None if taken is None else (search.whole.analysis, taken.struts),
     )  # fmt: skip
+    if task.skin is not None:
+        report["skin_stress_mpa"] = skin_peaks(search.model, search.sized.analysis)
+        report["skin"] = {
+            **thickness_there(search.model, task.infill.domain.mesh),
+            "chosen_at": len(task.skin.sized.analysis.radii) - len(task.skin.radii),
+            "even": task.skin.even,
+        }
     return SizedPart(graded, points, radii, search.model, search.sized, before, search.even, report)
 
 
@@ -376,11 +461,24 @@ def write_radii(part: SizedPart, path: str | os.PathLike[str]) -> None:
         file.writelines(b"%.9g,%.9g,%.9g,%.6f\n" % tuple(row) for row in table.tolist())
 
 
-def values_with_radii(part: SizedPart, path: str | os.PathLike[str]) -> dict[str, Any]:
-    """What a specification's file says of a sized part whose radii are in a file of their own."""
+def values_with_radii(
+    part: SizedPart,
+    path: str | os.PathLike[str],
+    thickness: str | os.PathLike[str] | None = None,
+) -> dict[str, Any]:
+    """What a specification's file says of a sized part whose radii are in a file of their own.
+
+    Args:
+        part: the sized part.
+        path: the file of its radii.
+        thickness: that of its skin's thickness; None where that was not sized.
+    """
     assert part.spec.radius_grading is not None
     grading = replace(part.spec.radius_grading, field=str(path))
-    return values_of(replace(part.spec, radius_grading=grading))
+    spec = replace(part.spec, radius_grading=grading)
+    if thickness is None:
+        return values_of(spec)
+    return {**values_of(replace(spec, skin_field=None)), "skin_field": str(thickness)}
 
 
 def _without_target(

@@ -4,6 +4,7 @@
 import subprocess
 import sys
 from dataclasses import fields
+from pathlib import Path
 
 import pytest
 
@@ -52,15 +53,17 @@ def test_the_defaults_are_those_of_the_specification() -> None:
     assert specification({}).as_dict() == LatticeSpec().as_dict()
 
 
-def test_every_field_of_the_specification_can_be_asked_for() -> None:
+def test_every_field_of_the_specification_can_be_asked_for(tmp_path: Path) -> None:
     """With every parameter that a file may hold, no field keeps its default."""
+    thickness = tmp_path / "skin.csv"
+    thickness.write_text("x,y,z,t\n0,0,0,1\n9,0,0,2\n")
     values = {
         "cell": "BCC", "cell_size": 8.0, "strut_radius": 0.5, "shell": 1.0, "fillet": 0.1,
         "origin": (1.0, 2.0, 3.0), "activation": "centre", "boundary": "whole",
         "remove_dangling": True, "shortest_stub": 0.5, "keep_pieces": True,
         "remove_below": 0.6,
         "open_plane": ((0, 0, 1, 0, 0, 1),), "skin_face": ((0, 0, 2, 3),),
-        "keep_solid": ((0, 0, 2, 0, 0, 1, 4),),
+        "keep_solid": ((0, 0, 2, 0, 0, 1, 4),), "skin_field": str(thickness),
         "drain_diameter": 2.0, "drain_count": 1, "deviation": 0.1, "density": 2.0,
         "size_grading": "linear", "lambda_end": 1.5, "keep_radius": False,
         "radius_grading": "skin", "radius_end": 0.7, "cell_map": "spherical",

@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The thickness of a part's skin, found together with the radii of its struts.
+
+Shells have their middle, and struts end, where the skin's thickness puts them. So a search is made
+with the skin of the specification, another one with the skin that it found, and what that comes to
+is the skin of the part: a field of thicknesses, which its wall follows, as that of any part does.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ...design.scattered_field import PointField
+from ...design.spec import LatticeSpec
+from ...loads.load_cases import LoadCases
+from ...mesh.triangle_mesh import TriangleMesh
+from ...sizing.analysis import Analysis, Limits, Problem
+from ...sizing.model import SizingModel, with_sized_skin
+from ...sizing.optimise import Sized, Step, lightest, stiffest, uniform
+from ...sizing.skin_thickness import PEAKS, all_but, shares_of
+from ...spatial.proximity import closest_points
+from ...util.cache import StageCache
+from ...util.errors import VolfrepError
+from ...util.files import replacing
+from ...util.progress import Monitor
+from ...util.types import Floats
+from ..infill import Infill
+from .goal import Goal
+from .part_model import given_radii, part_model, thickness_of_skin
+
+#: Thicknesses are stored in steps of this, mm, as files keep them.
+STEP = 1e-6
+#: Searches, each with the skin that the one before has found.
+_SEARCHES = 2
+
+
+@dataclass(frozen=True, eq=False)
+class SkinDesign:
+    """A skin whose thickness was chosen, and the radii that were with it.
+
+    Attributes:
+        spec: with the skin.
+        nodes: (n, 3) of the wireframe, mm.
+        radii: (n,) mm.
+        sized: the last search.
+        steps: of all.
+        even: one radius and one thickness that hold the same limits, their volume in mm3 and
+            whether they do hold them; None without limits.
+        limit: of stress, MPa, that the skin was held to; None for none.
+    """
+
+    spec: LatticeSpec
+    nodes: Floats
+    radii: Floats
+    sized: Sized
+    steps: tuple[Step, ...]
+    even: dict[str, Any] | None
+    limit: float | None
+
+    def radii_at(self, nodes: Floats) -> Floats:
+        """(k,) mm, of the nearest node at (k, 3)."""
+        return np.asarray(self.radii[cKDTree(self.nodes).query(nodes)[1]])
+
+
+def design_skin(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    loads: LoadCases,
+    goal: Goal,
+    monitor: Monitor,
+    cache: StageCache,
+    design: SkinDesign | None = None,
+    *,
+    most_steps: int,
+    watch: Callable[[int, Step], bool],
+    margin: float = 1.0,
+) -> SkinDesign:
+    """Choose the thickness of the skin and the radii of struts together.
+
+    Args:
+        solid: the part.
+        spec: what it is filled with; its skin is what the search begins with.
+        loads: the material, and what the part carries.
+        goal: with bounds of the skin.
+        monitor: of the job.
+        cache: keeps the costly stages of the part.
+        design: to begin with; None for what the specification says.
+        most_steps: of each search.
+        watch: told of every step.
+        margin: of the limit of stress that the skin is held to.
+
+    Raises:
+        VolfrepError: there is no skin, or the bounds make no sense.
+    """
+    low, high, patch = _bounds(spec, goal)
+    spec = replace(spec, shell=float(np.clip(spec.shell, low, high)))
+    limits = goal.limits
+    if limits.stress is not None:
+        limits = replace(limits, skin_stress=margin * limits.stress)
+    steps: tuple[Step, ...] = ()
+    searches = _SEARCHES
+    if design is not None:
+        spec, steps, searches = design.spec, design.steps, 1
+    for number in range(searches):
+        infill = Infill(solid, spec, monitor=monitor, cache=cache)
+        model = part_model(infill, loads, goal, cache, thickest=high)
+        radii = given_radii(model.wireframe)
+        if design is not None:
+            radii = design.radii_at(model.wireframe.nodes)
+        thickness = thickness_of_skin(solid, spec)
+        varied, roots = with_sized_skin(
+            model, thickness if callable(thickness) else _constant(thickness), (low, high), patch
+        )
+        problem = varied.problem
+        first = np.clip(np.concatenate([radii, roots]), problem.low, problem.high)
+
+        def told(step: int, found: Step, done: int = len(steps)) -> bool:
+            return watch(done + step, found)
+
+        sized = _searched(problem, limits, goal, first, most_steps, told)
+        steps += sized.steps
+        spec = replace(spec, shell=low, skin_field=_field(problem, sized))
+        count = len(model.wireframe.nodes)
+        even = None
+        if number == searches - 1 and goal.limits.any:
+            even = _even(problem, limits)
+        final = sized.analysis.radii[:count]
+        design = SkinDesign(
+            spec, model.wireframe.nodes, final, sized, steps, even, limits.skin_stress
+        )
+        if sized.stopped == "cancelled":
+            break
+    assert design is not None
+    return design
+
+
+def _constant(thickness: float) -> Callable[[Floats], Floats]:
+    return lambda points: np.full(len(points), thickness)
+
+
+def _bounds(spec: LatticeSpec, goal: Goal) -> tuple[float, float, float]:
+    """The least thickness, the largest, and how far apart it is chosen, mm."""
+    assert goal.skin_thinnest is not None
+    if not spec.with_skin:
+        raise VolfrepError("There is no skin to size: give a shell thickness, and the output part.")
+    skin = spec.skin
+    assert skin is not None
+    if skin.face_skins or skin.keep_solid:
+        raise VolfrepError(
+            "The thickness of the skin is sized everywhere: leave out faces with their own, and "
+            "what is kept solid."
+        )
+    low = goal.skin_thinnest
+    high = 0.5 * spec.cell_size if goal.skin_thickest is None else goal.skin_thickest
+    patch = spec.cell_size if goal.skin_patch is None else goal.skin_patch
+    if not (0.0 < low <= high and patch > 0.0):
+        raise VolfrepError(
+            f"A skin from {low:.4g} to {high:.4g} mm, chosen every {patch:.4g} mm, makes no sense: "
+            "the least must be above 0 and not above the largest."
+        )
+    return low, high, patch
+
+
+def _searched(
+    problem: Problem,
+    limits: Limits,
+    goal: Goal,
+    first: Floats,
+    most_steps: int,
+    watch: Callable[[int, Step], bool],
+) -> Sized:
+    if limits.any:
+        return lightest(problem, limits, first, most_steps=most_steps, watch=watch)
+    volume = problem.radii.volume(first) if goal.volume is None else goal.volume
+    weights = None if goal.weights is None else np.array(goal.weights, float)
+    return stiffest(problem, volume, first, weights=weights, most_steps=most_steps, watch=watch)
+
+
+def _field(problem: Problem, sized: Sized) -> PointField:
+    """The thickness of a design at the skin's inner side, where its wall is to be."""
+    skin = problem.skin
+    assert skin is not None
+    model, chosen = skin.skin, skin.wanted(sized.analysis.radii)
+    rows = np.unique(model.shells.triangles)
+    outside = model.outside.vertices[rows]
+    wanted = np.full(len(rows), chosen[0])
+    if len(chosen) > 1:
+        centres = model.middle[model.shells.triangles].mean(axis=1)
+        reach = _reach(skin.points, centres)
+        wanted = shares_of(skin.points, outside, reach) @ chosen
+    wanted = np.ceil(wanted / STEP - 1e-6) * STEP
+    depth = np.minimum(wanted, 0.5 * model.room[rows])
+    inwards = model.inside[rows] - outside
+    inwards /= np.maximum(np.linalg.norm(inwards, axis=1), 1e-300)[:, None]
+    return PointField(np.round(outside + depth[:, None] * inwards, 6), wanted, "sizing")
+
+
+def _reach(points: Floats, places: Floats) -> float:
+    """How far apart control points lie, mm: no place is farther from one."""
+    return float(cKDTree(points).query(places)[0].max()) * 1.05
+
+
+def _even(problem: Problem, limits: Limits) -> dict[str, Any]:
+    found, holds = uniform(problem, limits)
+    skin = problem.skin
+    assert skin is not None
+    return {
+        "radius_mm": float(found.radii[: skin.radii].mean()),
+        "thickness_mm": float(skin.wanted(found.radii).mean()),
+        "volume_mm3": found.volume,
+        "holds": holds,
+    }
+
+
+def skin_peaks(model: SizingModel, analysis: Analysis) -> list[float]:
+    """The stress of the skin in each case, MPa, on all but a little of its area."""
+    skin = model.skin
+    assert skin is not None
+    felt = skin.stresses(analysis.displacements[model.frame_nodes :])
+    return [all_but(row, skin.shells.area, PEAKS) for row in felt.T]
+
+
+def thickness_there(model: SizingModel, domain: TriangleMesh) -> dict[str, Any]:
+    """The thickness that was asked for, and what came out below the middles of the skin's shells.
+
+    Args:
+        model: of the part as it is.
+        domain: what lies within its skin.
+    """
+    skin = model.skin
+    assert skin is not None
+    shells = skin.shells
+    places = skin.outside.vertices[shells.triangles].mean(axis=1)
+    asked = shells.thickness
+    found = closest_points(domain, places)[1]
+    clear = asked < 0.49 * skin.room[shells.triangles].min(axis=1)
+    share = found[clear] / asked[clear]
+    area = shells.area[clear]
+    order = np.argsort(share)
+    total = np.cumsum(area[order]) / area.sum()
+    last = len(order) - 1
+    low, middle, high = (
+        float(share[order[min(int(np.searchsorted(total, part)), last)]])
+        for part in (0.05, 0.5, 0.95)
+    )
+    return {
+        "thickness_mm": [float(asked.min()), float(asked.max())],
+        "mean_thickness_mm": float(asked @ shells.area / shells.area.sum()),
+        "there_over_asked": {"5%": low, "50%": middle, "95%": high},
+        "solid_share": skin.solid_share,
+    }
+
+
+def write_thickness(spec: LatticeSpec, path: str | os.PathLike[str]) -> None:
+    """Write the skin's thickness as a table that ``--skin-field`` reads: x, y, z, mm."""
+    field = spec.skin_field
+    assert isinstance(field, PointField)
+    with replacing(path) as file:
+        file.write(b"x,y,z,thickness\n")
+        table = np.column_stack([field.points, field.values])
+        file.writelines(b"%.12g,%.12g,%.12g,%.6f\n" % tuple(row) for row in table.tolist())

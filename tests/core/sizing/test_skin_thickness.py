@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A skin whose thickness is sized with the struts, against thin-walled tubes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import samples
+from volfrep import LatticeSpec
+from volfrep.jobs.infill import Infill
+from volfrep.jobs.sizing import Goal
+from volfrep.jobs.sizing.part_model import part_model
+from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
+from volfrep.loads.regions import InPlane
+from volfrep.mechanics.materials import find_material
+from volfrep.sizing.analysis import Limits, analyse
+from volfrep.sizing.model import with_sized_skin
+from volfrep.util.cache import StageCache
+from volfrep.util.progress import Monitor
+
+TITANIUM = find_material("Ti-6Al-4V")
+
+
+def on_plane(axis, value):
+    point, normal = np.zeros((2, 3))
+    point[axis], normal[axis] = value, 1.0
+    return InPlane(tuple(point.tolist()), tuple(normal.tolist()))
+
+
+def tube(size, load, *, bounds, patch, shell=1.5, cell=10.0, radius=0.25, acceleration=None):
+    """A closed box held at x = 0 and loaded at its other end, about struts that hardly count."""
+    solid = samples.box(size)
+    case = LoadCase("end", (Support(on_plane(0, 0.0)),), (load(on_plane(0, size[0])),))
+    cases = (
+        (case,)
+        if acceleration is None
+        else (case, replace(case, name="pulled", acceleration=acceleration))
+    )
+    spec = LatticeSpec("CVC", cell_size=cell, strut_radius=radius, shell=shell)
+    infill = Infill(solid, spec, monitor=Monitor(), cache=StageCache())
+    goal = Goal(thinnest=radius)
+    loads = LoadCases(TITANIUM, cases)
+    model = part_model(infill, loads, goal, StageCache(), thickest=bounds[1])
+    varied, roots = with_sized_skin(
+        model, lambda points: np.full(len(points), shell), bounds, patch
+    )
+    problem = varied.problem
+    radii = np.clip(
+        np.full(len(model.problem.low), radius), *(model.problem.low, model.problem.high)
+    )
+    return model, problem, np.concatenate([radii, roots])
+
+
+def test_a_skin_that_is_varied_is_the_skin_that_is_not():
+    """With the thickness that the model was made with: the same stiffness and mass."""
+    model, problem, first = tube(
+        (40.0, 20.0, 20.0), lambda region: Force(region, (0, 0, -500.0)), bounds=(0.5, 4.0),
+        patch=10.0, acceleration=(1e7, 2e7, 0.0),
+    )  # fmt: skip
+    limits = Limits(frequency=100.0)
+    fixed = analyse(model.problem, first[: problem.skin.radii], limits)[0]
+    varied = analyse(problem, first, limits)[0]
+    assert varied.compliance == pytest.approx(fixed.compliance, rel=1e-6)
+    assert varied.frequency == pytest.approx(fixed.frequency, rel=1e-6)
+    told = model.skin.stresses(fixed.displacements[model.frame_nodes :])
+    assert varied.skin_stress == pytest.approx(told, rel=1e-5)
+
+
+def test_its_derivatives_are_those_of_differences():
+    _, problem, first = tube(
+        (40.0, 20.0, 20.0), lambda region: Force(region, (0, 50.0, -500.0)), bounds=(0.5, 4.0),
+        patch=10.0, acceleration=(1e7, 2e7, 0.0),
+    )  # fmt: skip
+    place = np.clip(first * (1.0 + 0.1 * np.sin(np.arange(len(first)))), problem.low, problem.high)
+    limits = Limits(displacement=1.0, frequency=100.0, frame_buckling=1.0)
+    found, changes = analyse(problem, place, limits, with_changes=True)
+    farthest = int(np.argmax(changes.displacement_uses))
+    for row in (problem.skin.radii + 2, len(place) - 3):
+        step = np.zeros(len(place))
+        step[row] = 1e-4
+        high, low = (analyse(problem, place + sign * step, limits)[0] for sign in (1, -1))
+        expected = {
+            name: (high.uses[name] - low.uses[name]) / 2e-4
+            for name in ("displacement", "frequency", "frame buckling")
+        }
+        assert changes.compliance[row] == pytest.approx(
+            (high.compliance - low.compliance) / 2e-4, rel=1e-4
+        )
+        assert changes.displacement[row, farthest] == pytest.approx(
+            expected["displacement"], rel=1e-4
+        )
+        assert changes.frequency[row] == pytest.approx(expected["frequency"], rel=1e-4)
+        worst = int(np.argmax(changes.frame_uses))
+        assert changes.frame_buckling[row, worst] == pytest.approx(
+            expected["frame buckling"], rel=2e-2
+        )
+        assert problem.radii.volume_change(place)[row] == pytest.approx(
+            (high.volume - low.volume) / 2e-4, rel=1e-6
+        )
+    assert found.volume == pytest.approx(problem.radii.volume(place))

@@ -422,6 +422,7 @@ def choose(name, entry, read):
     check(f"{entry} is chosen", wait_until(lambda: read() == entry), read())
 
 
+@slow
 def size_a_solid(doc, box):
     """Loads and Sizing of a solid makes its lattice, which Cancel takes away and OK shows."""
     steps = doc.UndoCount

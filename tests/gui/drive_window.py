@@ -179,6 +179,7 @@ def refresh_button():
     return found[0]
 
 
+@slow
 def go_on_after_a_refresh(doc, obj):
     """FreeCAD's Refresh returns at once; the next one asks for the values of then."""
     obj.AutoUpdate = True

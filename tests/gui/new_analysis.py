@@ -31,7 +31,7 @@ def loaded(size=(40, 20, 20), cell=10, shell=0.0, **values):
     box = doc.addObject("Part::Box", "Beam")
     box.Length, box.Width, box.Height = size
     doc.recompute()
-    usual = {"CellType": "BCC", "CellSize": cell, "StrutRadius": 0.08 * cell}
+    usual = {"CellType": "BCC", "CellSize": cell, "StrutRadius": 0.08 * cell, "Resolution": 13}
     obj = make_lattice_infill(doc, box, **{**usual, "ShellThickness": shell, **values})
     doc.recompute()
     faces = {face.CenterOfMass.x: k + 1 for k, face in enumerate(box.Shape.Faces)}

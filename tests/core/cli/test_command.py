@@ -239,7 +239,11 @@ def inputs_and_outputs() -> Iterator[tuple[str, str, str]]:
             yield from ((command, source, output) for output in sorted(writes))
 
 
-@pytest.mark.parametrize("way", ["its name", "a symbolic link", "a hard link"])
+@pytest.mark.parametrize(
+    "way",
+    [pytest.param(way, marks=pytest.mark.slow) for way in ("its name", "a symbolic link")]
+    + ["a hard link"],
+)
 @pytest.mark.parametrize(("command", "source", "output"), list(inputs_and_outputs()))
 def test_no_output_is_an_input(
     capsys: pytest.CaptureFixture[str],

@@ -141,6 +141,7 @@ def test_with_a_skin_the_struts_end_in_it_and_both_are_told(
     assert read_triangles(out).volume == pytest.approx(figures["part"]["volume_mm3"], rel=1e-5)
 
 
+@pytest.mark.slow
 def test_the_finished_file_as_a_solid_stands_beside_the_design(
     part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -59,6 +59,7 @@ def test_the_mesh_has_struts_of_the_compensated_thickness():
     assert 2 * np.sqrt(strut / np.pi) == pytest.approx(1 / 1.075, abs=CLOSE)
 
 
+@pytest.mark.slow
 def test_what_was_drawn_is_told_as_it_comes_out(tmp_path, capsys):
     solid, out = tmp_path / "solid.stl", tmp_path / "part.stl"
     write_stl(samples.box((20, 20, 20)), solid)

@@ -91,6 +91,7 @@ def test_the_command_fills_a_folder_and_its_table_comes_back(tmp_path, capsys):
     assert "choose of cube" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_walls_make_coupons_too():
     cube = volfrep.coupons(kinds=["cube"], cells=1, cell="Gyroid", cell_size=8, wall_thickness=1)[0]
     judged = trimesh.Trimesh(cube.mesh.vertices, cube.mesh.triangles, process=False)

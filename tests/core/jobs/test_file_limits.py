@@ -33,7 +33,7 @@ JOBS = [
 ]
 
 
-@pytest.mark.slow_cases("job1", "job3", "job5")
+@pytest.mark.slow_cases("job1", "job3", "job4", "job5")
 @pytest.mark.parametrize(
     ("lattice", "extension", "triangles", "megabytes"),
     [pytest.param(*job, id=f"job{k}") for k, job in enumerate(JOBS)],

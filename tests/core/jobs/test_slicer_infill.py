@@ -91,6 +91,7 @@ def test_what_makes_no_sense_is_refused_in_a_sentence(wanted, said):
         slicer_infill(BOX, **wanted)
 
 
+@pytest.mark.slow_but("part0-wanted0")
 @needs_prusa_slicer
 @pytest.mark.parametrize(
     ("part", "wanted"),
@@ -224,6 +225,7 @@ def test_the_bricks_bend_as_a_beam_does():
     assert found == pytest.approx(1 / (bent + sheared), rel=0.08)
 
 
+@pytest.mark.slow
 def test_a_beam_with_bands_is_stiffer_than_one_of_even_infill_of_the_same_filament():
     """Moduli go with the 1.53th power of the density, as measured on grids of PLA."""
     beam = samples.box((96.0, 16.0, 16.0))

@@ -142,6 +142,7 @@ def test_a_thin_wall_bends_also_where_it_lies_askew_in_the_grid(angle):
     assert told["compliance_nmm"] == pytest.approx(0.99 * beam, rel=0.08)
 
 
+@pytest.mark.slow
 def test_steps_do_not_grow_as_voxels_become_smaller():
     ring = Manifold.cylinder(12.0, 10.0, 10.0, 64) - Manifold.cylinder(12.0, 6.0, 6.0, 48)
     mesh = as_mesh(ring)

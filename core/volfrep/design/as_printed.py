@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..util.arguments import check_path
 from ..util.errors import VolfrepError
 from ..util.numbers import number
 from ..util.reading import read_text
@@ -117,6 +118,7 @@ def find_printed_table(text: str | os.PathLike[str]) -> PrintedTable:
     Raises:
         VolfrepError: there is no such table, or the file makes none.
     """
+    check_path("table of printed diameters", text)
     word = os.fspath(text)
     if word.lower() in TABLES:
         return TABLES[word.lower()]

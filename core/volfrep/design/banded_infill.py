@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, brief
 from ..util.numbers import number, whole
 from ..util.types import Floats
 from .banded_words import GRADINGS, PATTERNS
@@ -109,6 +109,10 @@ class BandedInfill:
         values = self.field
         if isinstance(values, (str, os.PathLike)):
             values = read_point_field(values, self.column)
+        if self.grading == "field" and not isinstance(values, Field):
+            raise VolfrepError(
+                f"A field is a CSV or VTK file, or points with values, not {brief(values)}."
+            )
         curve = read_curve(self.curve) if self.curve else ()
         for _, density in curve:
             refuse_density("density of the curve", density)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, brief
 from ..util.numbers import number, whole
 
 
@@ -80,13 +80,14 @@ def limits_of(service: str | None, triangles: int | None, megabytes: float | Non
     """
     found = FileLimits()
     if service is not None:
-        if service.lower() not in SERVICES:
+        known = SERVICES.get(service.lower()) if isinstance(service, str) else None
+        if known is None:
             names = ", ".join(row.name for row in SERVICES.values())
             raise VolfrepError(
-                f"The limits of '{service}' are not known: choose {names}, or give the most "
+                f"The limits of {brief(service)} are not known: choose {names}, or give the most "
                 "triangles and megabytes."
             )
-        found = SERVICES[service.lower()].limits
+        found = known.limits
     return FileLimits(
         found.triangles if triangles is None else triangles,
         found.megabytes if megabytes is None else megabytes,

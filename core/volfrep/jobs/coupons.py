@@ -98,6 +98,7 @@ def make_coupons(
         VolfrepError: there is no such kind, or a number makes no sense.
         Cancelled: the callback said so.
     """
+    kinds = (kinds,) if isinstance(kinds, str) else kinds
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown or not kinds:
         what = f"There is no coupon '{unknown[0]}'" if unknown else "No coupon is named"

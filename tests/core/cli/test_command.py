@@ -499,7 +499,7 @@ def test_fill_by_a_field(capsys: pytest.CaptureFixture[str], tmp_path: Path, par
     least, most = figures["strut_radii_mm"]
     assert 0.6 <= least < 0.7
     assert 1.0 < most <= 1.1
-    assert figures["spec"]["radius_grading"]["field"] == f"2 points of {table}"
+    assert figures["spec"]["radius_grading"]["field"] == f"2 points of {table.name}"
     assert measure(as_read(read_triangles(out))).bodies == 1
 
 

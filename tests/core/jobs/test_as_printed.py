@@ -91,6 +91,8 @@ def test_a_table_of_ones_own_is_read_and_what_is_not_measured_left_out(tmp_path)
     path.write_text("angle,nominal\n0,0.5\n")
     with pytest.raises(volfrep.VolfrepError, match="no column 'inclination'"):
         find_printed_table(path)
+    with pytest.raises(volfrep.VolfrepError, match="table of printed diameters"):
+        volfrep.fill(samples.box((20, 20, 20)), cell="BCC", compensate=5)
 
 
 @pytest.mark.parametrize(

@@ -94,3 +94,5 @@ def test_services_are_known_by_name_source_and_date():
     assert all(row.source and re.fullmatch(r"20\d\d-\d\d", row.read) for row in SERVICES.values())
     with pytest.raises(VolfrepError, match="choose Shapeways"):
         limits_of("nobody", None, None)
+    with pytest.raises(VolfrepError, match="limits of 5 are not known"):
+        fill(BOX, cell="BCC", service=5)

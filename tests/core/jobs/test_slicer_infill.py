@@ -83,6 +83,7 @@ def test_a_formula_says_the_density_at_every_place():
         ({"pattern": "lightning"}, "choose gyroid"),
         ({"bands": 40}, "from 2 to 8"),
         ({"layer": 0.5}, "as high as a line"),
+        ({"grading": "field", "field": 5}, "points with values, not 5"),
         ({"wals": 2}, "did you mean 'walls'"),
     ],
 )

@@ -49,9 +49,9 @@ NOMINAL = (
 )
 #: Seconds of processor time and bytes for each voxel, also for each load case, and for each
 #: triangle; bytes for each voxel of the box that the part lies in. Of a bracket, solid and filled,
-#: with 26,000 to 350,000 voxels and four cases.
-SECONDS_PER_VOXEL, SECONDS_PER_CASE, SECONDS_PER_TRIANGLE = 8e-5, 9e-5, 8e-6
-BYTES, BYTES_PER_VOXEL, BYTES_IN_BOX, BYTES_PER_TRIANGLE = 1.5e8, 4500.0, 150.0, 400.0
+#: with 26,000 to 293,000 voxels and one or four cases.
+SECONDS_PER_VOXEL, SECONDS_PER_CASE, SECONDS_PER_TRIANGLE = 1.2e-4, 9e-5, 8e-6
+BYTES, BYTES_PER_VOXEL, BYTES_IN_BOX, BYTES_PER_TRIANGLE = 1.5e8, 5500.0, 150.0, 400.0
 #: Cut voxels for each square of a voxel's edge of the surface.
 CUT = 0.75
 #: What is compared between the two sizes.

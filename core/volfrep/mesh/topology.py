@@ -51,8 +51,14 @@ def corners_among(chosen: Bools, triangles: NDArray[Any]) -> NDArray[np.int8]:
 
 def touching(chosen: Bools, triangles: NDArray[Any]) -> Bools:
     """(m,) which triangles have a corner among the chosen vertices, (n,) bool."""
-    a, b, c = (chosen[triangles[:, k]] for k in range(3))
-    return np.asarray(a | b | c, np.bool_)
+
+    def block(start: int) -> Bools:
+        a, b, c = (chosen[triangles[start : start + BLOCK_TRIANGLES, k]] for k in range(3))
+        return np.asarray(a | b | c, np.bool_)
+
+    if len(triangles) <= BLOCK_TRIANGLES:
+        return block(0)
+    return np.concatenate(list(in_threads(block, range(0, len(triangles), BLOCK_TRIANGLES))))
 
 
 def vertices_of(triangles: NDArray[Any], count: int) -> Bools:

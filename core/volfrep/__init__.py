@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """VOLFREP: strut-and-node lattice infills for solids.
 
-`fill` and `block` make a `Part`, `sweep` many designs, `solve` says what any solid carries. The
-names below are loaded when first used, so that importing the package costs nothing.
+`fill` and `block` make a `Part`, `sweep` many designs, `solve` says what any solid carries,
+`homogenise` what a part of any number of cells does. The names below are loaded when first used,
+so that importing the package costs nothing.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
         block,
         coupons,
         fill,
+        homogenise,
         mesh_network,
         size,
         slice_layers,
@@ -67,6 +69,7 @@ _HOMES = {
     "Study": "studies.study",
     "read_study": "studies.study",
     "fill": "api.calls",
+    "homogenise": "api.calls",
     "find": "jobs.figures.find:find_lattices",
     "size": "api.calls",
     "mesh_network": "api.calls",
@@ -102,6 +105,7 @@ __all__ = [
     "evaluate",
     "fill",
     "find",
+    "homogenise",
     "make_cell",
     "mesh_network",
     "orient",

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from ..design.banded_infill import BandedInfill
     from ..design.parameters.typed import Keywords, SizeKeywords
     from ..jobs.coupons import Coupon
+    from ..jobs.homogenised import HomogenisedPart
     from ..jobs.infill import Infill
     from ..jobs.slicer_infill import SlicerInfill
     from ..jobs.slices import Layers
@@ -360,6 +361,62 @@ def orient(
         return best_orientations(
             mesh, inclination_of(process, inclination), best=best, progress=told
         )
+
+
+def homogenise(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    loads: LoadCases | Mapping[str, Any] | str | os.PathLike[str],
+    spec: LatticeSpec | None = None,
+    *,
+    element: float | None = None,
+    unit: str | None = None,
+    progress: ProgressCallback | bool | None = None,
+    cache: StageCache | None = None,
+    **parameters: Unpack[Keywords],
+) -> HomogenisedPart:
+    """Solve a filled part as a solid of its lattice's effective stiffness: any number of cells.
+
+    Args:
+        part: as of `fill`.
+        loads: the file of the load cases (docs/loads.md), or a dict with the file's entries.
+        spec: what it is filled with.
+        element: edge of an element, mm; None for a cell, or less where there are few.
+        unit: as of `fill`.
+        progress: as of `fill`.
+        cache: as of `fill`.
+        parameters: as of `fill`.
+
+    Returns:
+        Its `report` holds the figures, `states` displacements, the lattice's share of yield and the
+        skin's stress of each case; `save` writes .vtu, .json or a CalculiX deck; `conduct` its
+        steady heat.
+
+    Raises:
+        VolfrepError: the lattice has no cells that repeat, nothing lies where a load acts, or the
+            part is not held.
+        Cancelled: the callback said so.
+
+    >>> import trimesh, volfrep
+    >>> box = trimesh.creation.box(bounds=((0, 0, 0), (40, 20, 20)))
+    >>> held, pulled = ({"point": [x, 0, 0], "normal": [1, 0, 0]} for x in (0, 40))
+    >>> loads = {
+    ...     "material": "PA12",
+    ...     "support": [{"plane": held, "fixed": True}],
+    ...     "case": [{"load": [{"plane": pulled, "force": [100, 0, 0]}]}],
+    ... }
+    >>> made = volfrep.homogenise(box, loads, cell="Octet", cell_size=5, strut_radius=0.4, shell=1)
+    >>> 0.02 < made.report["cases"][0]["displacement_mm"] < 0.03
+    True
+    """
+    from ..jobs.homogenised import homogenise_part
+
+    given = with_current_names(parameters)
+    refuse_unknown(given, accepted())
+    cache = _cache(cache)
+    with shown(progress) as told:
+        solid, wanted = _asked(part, unit, told, spec, given, None)
+        cases = _loads(loads, solid)
+        return homogenise_part(solid, wanted, cases, element=element, progress=told, cache=cache)
 
 
 def _loads(

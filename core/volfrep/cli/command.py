@@ -28,6 +28,7 @@ from . import (
     bug_report,
     coupon,
     find,
+    homogenising,
     infill,
     layers,
     orienting,
@@ -155,6 +156,7 @@ def _parser() -> argparse.ArgumentParser:
 
     sizing.add_command(add)
     solving.add_command(add)
+    homogenising.add_command(add)
     orienting.add_command(add)
     sweep.add_command(add)
 

@@ -112,6 +112,12 @@ RUN_OPTIONS = (
         "FILE", writes="output", short="o",
     ),
     RunOption(
+        "output", ("homogenise",),
+        "displacements and stress in colours as .vtu for ParaView, the figures as .json, or a "
+        "CalculiX deck as .inp",
+        "FILE", writes="output", short="o",
+    ),
+    RunOption(
         "output", ("sweep",),
         "of records, table and page; what is done there is not done again",
         "FOLDER", required=True, short="o",
@@ -149,7 +155,7 @@ RUN_OPTIONS = (
         "output", ("cells",), "a cell file of it", "FILE.json", writes="output", short="o",
     ),
     RunOption(
-        "unit", ("fill", "slice", "infill", "size", "solve", "orient", "check"),
+        "unit", ("fill", "slice", "infill", "size", "solve", "homogenise", "orient", "check"),
         "of the file's lengths: mm, cm, m, inch, ft or um (default: what the file says, else mm)",
         "UNIT",
     ),
@@ -158,7 +164,8 @@ RUN_OPTIONS = (
         read=three_whole_numbers, required=True,
     ),
     RunOption(
-        "spec", (*LATTICE, "coupon"), f"read a specification, or one to start from by its name "
+        "spec", (*LATTICE, "coupon", "homogenise"),
+        f"read a specification, or one to start from by its name "
         f"({', '.join(RECIPES)}); options override its entries",
         "FILE.toml|NAME", SPEC_GROUP, reads="specification",
     ),
@@ -173,7 +180,8 @@ RUN_OPTIONS = (
         "report", ("size",), "write the figures, before and after", "FILE.json", writes="report",
     ),
     RunOption(
-        "report", ("solve", "orient"), "write the figures as JSON", "FILE.json", writes="report",
+        "report", ("solve", "orient", "homogenise"), "write the figures as JSON",
+        "FILE.json", writes="report",
     ),
     RunOption(
         "max-triangles", FITTED, "coarser facets, where the file would have more; the cost is told",
@@ -355,13 +363,18 @@ RUN_OPTIONS = (
         "layer", ("infill",), "height of a layer (default 0.2)", "MM", PRINT_GROUP, float, 0.2,
     ),
     RunOption(
-        "loads", ("size", "solve"), "load cases, see docs/loads.md",
+        "loads", ("size", "solve", "homogenise"), "load cases, see docs/loads.md",
         "FILE.toml", required=True, reads="load file",
     ),
     RunOption(
         "voxel", ("size", "solve"),
         "edge of a voxel of the file that is solved (default: what makes a quarter of a million of "
         "them, or lays two across its walls)",
+        "MM", read=float,
+    ),
+    RunOption(
+        "element", ("homogenise",),
+        "edge of an element (default: a cell, or less where there are few)",
         "MM", read=float,
     ),
     RunOption(
@@ -531,7 +544,7 @@ RUN_OPTIONS = (
     RunOption("limit-memory", ("sweep",), "end a run that takes more", "GB", read=float),
     RunOption("retry-failed", ("sweep",), "try again what failed before"),
     RunOption(
-        "quiet", (*LATTICE, "infill", "coupon", "solve", "orient", "sweep"),
+        "quiet", (*LATTICE, "infill", "coupon", "solve", "homogenise", "orient", "sweep"),
         "print nothing but errors",
     ),
 )  # fmt: skip

@@ -129,13 +129,13 @@ class Loaded:
         for axis in range(3):
             key = held[:, axis].tobytes()
             if key not in self._found:
-                self._found[key] = self._nodes_at(held[:, axis])
+                self._found[key] = self.nodes_at(held[:, axis])
             rows, nearest = self._found[key]
             result[rows, axis] = True
             to[rows, axis] = moved[nearest, axis]
         return result, to
 
-    def _nodes_at(self, held: Bools) -> tuple[Ints, Ints]:
+    def nodes_at(self, held: Bools) -> tuple[Ints, Ints]:
         """Nodes that lie on held places of the surface, and the surface's node that each is at."""
         if not held.any():
             return np.zeros(0, np.int64), np.zeros(0, np.int64)

@@ -69,10 +69,26 @@ def voxel_grid(mesh: TriangleMesh, voxel: float, monitor: Monitor | None = None)
         voxel: the edge that is wanted, mm.
         monitor: asked for a cancel.
     """
-    monitor = monitor or Monitor()
+    whole, edge = grid_of(mesh.bounds, voxel)
     low = mesh.bounds[0]
-    whole, voxel_edge = grid_of(mesh.bounds, voxel)
-    count, edge = 2 * whole, 0.5 * voxel_edge
+    parts = fill_grid(mesh, low, 2 * whole, 0.5 * edge, monitor)
+    split = parts.reshape(whole[0], 2, whole[1], 2, whole[2], 2)
+    return VoxelGrid(low, edge, split.mean(axis=(1, 3, 5), dtype=float), parts)
+
+
+def fill_grid(
+    mesh: TriangleMesh, low: Floats, count: Ints, edge: Floats, monitor: Monitor | None = None
+) -> NDArray[np.float32]:
+    """(nx, ny, nz) in [0, 1], how much of each part of a grid a closed mesh fills.
+
+    Args:
+        mesh: closed, wound as seen from outside, mm.
+        low: (3,) the grid's lowest corner, mm.
+        count: (3,) its parts along each axis.
+        edge: (3,) of a part, mm.
+        monitor: asked for a cancel.
+    """
+    monitor = monitor or Monitor()
     lines = count[:2] * LINES
     # In spacings of lines along x and y; along z in voxels.
     scale = np.array([LINES / edge[0], LINES / edge[1], 1.0 / edge[2]])
@@ -111,8 +127,7 @@ def voxel_grid(mesh: TriangleMesh, voxel: float, monitor: Monitor | None = None)
     np.clip(parts, 0.0, 1.0, out=parts)
     parts[parts < ROUNDING] = 0.0
     parts[parts > 1.0 - ROUNDING] = 1.0
-    split = parts.reshape(whole[0], 2, whole[1], 2, whole[2], 2)
-    return VoxelGrid(low, voxel_edge, split.mean(axis=(1, 3, 5), dtype=float), parts)
+    return parts
 
 
 def _crossings(corners: list[Floats], first: Ints, wide: Ints) -> tuple[Ints, Floats, Floats]:

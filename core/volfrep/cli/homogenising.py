@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The command ``volfrep homogenise``: a filled part as a solid of its lattice's stiffness.
+
+numpy and the engine are imported inside the functions, as in `command`.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from typing import Any
+
+from ..util.progress_bar import drawn
+from .files import check_files, read_part
+from .parameter_options import add_parameters, specified
+from .run_options import add_run_options
+from .telling import print_rows, print_warnings
+
+_TEXT = "Solve a filled part, of any number of cells, as a solid of its lattice's stiffness."
+
+
+def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
+    """Add the command with `cli`'s own function for that."""
+    parser = add("homogenise", _homogenise, _TEXT)
+    parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
+    add_run_options(parser, "homogenise")
+    add_parameters(parser)
+
+
+def _homogenise(options: argparse.Namespace) -> None:
+    from ..jobs.homogenised import check_homogenised_file, homogenise_part
+    from ..loads.load_file import read_load_cases
+
+    found = specified(options)
+    check_files(options, found.files)
+    if options.output is not None:
+        check_homogenised_file(options.output)
+    solid = read_part(options.part, options.unit, found.spec.cell_size)
+    loads = read_load_cases(options.loads, solid)
+    with drawn(options.quiet) as progress:
+        made = homogenise_part(solid, found.spec, loads, element=options.element, progress=progress)
+    if options.output is not None:
+        made.save(options.output)
+    if options.report is not None:
+        made.write_report(options.report)
+    print_warnings(made.report["notes"])
+    if not options.quiet:
+        print_rows(*made.rows())

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Bricks with a stiffness each, of which a part may be filled: a skin that is thinner than they.
+
+The trilinear brick, integrated over `PARTS`^3 parts of itself, each with the share that skin and
+lattice have of it: so a skin lies where it is, and bends a part as it should.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations_with_replacement
+from typing import Any
+
+import numpy as np
+
+from ..mechanics.elements import CORNERS, PARTS, SHEARS, gradients, part_centres
+from ..util.types import Floats, Ints
+
+#: The 21 constants of a stiffness, rows and columns of its upper triangle.
+PAIRS = np.array(list(combinations_with_replacement(range(6), 2)))
+#: Elements whose matrices are made at once.
+AT_ONCE = 4_000
+
+
+def constants(tensors: Floats) -> Floats:
+    """(..., 21) of symmetric (..., 6, 6)."""
+    result: Floats = tensors[..., PAIRS[:, 0], PAIRS[:, 1]]
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class Shares:
+    """What fills the parts of elements.
+
+    Attributes:
+        lattice, solid: (e, PARTS^3) float32 in [0, 1], the shares of the part's lattice and of its
+            skin or kept solids.
+    """
+
+    lattice: Floats
+    solid: Floats
+
+
+class Bricks:
+    """Integrals of elements of one size.
+
+    Args:
+        edge: (3,) of them, mm.
+    """
+
+    def __init__(self, edge: Floats) -> None:
+        self.edge = np.asarray(edge, float)
+        offsets = (CORNERS - 0.5) / (np.sqrt(3.0) * PARTS)
+        points = (part_centres()[:, None] + offsets).reshape(-1, 3)
+        weight = float(np.prod(self.edge)) / (8 * PARTS**3)
+        strain = self.strains(points).reshape(PARTS**3, 8, 6, 24)
+        table = np.empty((PARTS**3, len(PAIRS), 576), np.float32)
+        for k, (i, j) in enumerate(PAIRS):
+            one = np.einsum("pqa,pqb->pab", strain[:, :, i], strain[:, :, j]) * weight
+            whole = one if i == j else one + one.swapaxes(1, 2)
+            table[:, k] = whole.reshape(-1, 576)
+        self._table, self._whole = table, table.sum(axis=0)
+
+    def strains(self, points: Floats) -> Floats:
+        """(n, 6, 24) strains, Voigt, of the nodes' displacements at points of the unit cube."""
+        slopes = gradients(points) / self.edge
+        matrix = np.zeros((len(points), 6, 8, 3))
+        for axis in range(3):
+            matrix[:, axis, :, axis] = slopes[..., axis]
+        for row, (one, two) in enumerate(SHEARS, 3):
+            matrix[:, row, :, one] = slopes[..., two]
+            matrix[:, row, :, two] = slopes[..., one]
+        return matrix.reshape(len(points), 6, 24)
+
+    def matrices(self, shares: Shares, lattice: Floats, solid: Floats) -> Floats:
+        """(e, 24, 24) float32 N/mm.
+
+        Args:
+            shares: what fills each.
+            lattice: (e, 21) `constants` of the lattice there, or (1, 21) of all, MPa.
+            solid: (21,) of the skin, MPa.
+        """
+        count = len(shares.lattice)
+        result: Any = np.empty((count, 576), np.float32)
+        full = (shares.lattice == 1.0).all(axis=1)
+        solid32, every = solid.astype(np.float32), np.broadcast_to(lattice, (count, 21))
+        for rows in np.array_split(np.flatnonzero(full), int(full.sum()) // AT_ONCE + 1):
+            result[rows] = every[rows].astype(np.float32) @ self._whole
+        table = self._table.reshape(-1, 576)
+        cut = np.flatnonzero(~full)
+        for rows in np.array_split(cut, -(-len(cut) // AT_ONCE)) if len(cut) else ():
+            own = shares.lattice[rows][:, :, None] * every[rows].astype(np.float32)[:, None]
+            own += shares.solid[rows][:, :, None] * solid32
+            result[rows] = own.reshape(len(rows), -1) @ table
+        made: Floats = result.reshape(-1, 24, 24)
+        return made
+
+    def conductances(self, shares: Shares, lattice: Floats, solid: float) -> Floats:
+        """(e, 8, 8) W/K times what units the conductivities (e, 3, 3) or (1, 3, 3) have."""
+        slopes = gradients(part_centres()) / self.edge
+        weight = float(np.prod(self.edge)) / PARTS**3
+        table = np.einsum("pai,pbj->pijab", slopes, slopes).reshape(-1, 9, 64) * weight
+        every = np.broadcast_to(lattice, (len(shares.lattice), 3, 3)).reshape(-1, 9)
+        result = np.empty((len(every), 64))
+        for rows in np.array_split(np.arange(len(every)), len(every) // AT_ONCE + 1):
+            own = shares.lattice[rows][:, :, None] * every[rows][:, None]
+            own = own + shares.solid[rows][:, :, None] * (solid * np.eye(3).ravel())
+            result[rows] = own.reshape(len(rows), -1) @ table.reshape(-1, 64)
+        return result.reshape(-1, 8, 8)
+
+
+def add_bars(
+    matrices: Floats, bricks: Bricks, elements: Ints, places: Floats, ways: Floats, sizes: Floats
+) -> None:
+    """Add what lies along lines through elements and is stiff along them only, in place.
+
+    Args:
+        matrices: (e, 24, 24) float32.
+        bricks: their integrals.
+        elements: (q,) rows of them that pieces of lines lie in.
+        places: (q, 3) the pieces' middles in the unit cube.
+        ways: (q, 3) unit vectors along them.
+        sizes: (q,) N mm: E times the section times the piece's length.
+    """
+    stretch = np.stack(
+        [
+            ways[:, 0] ** 2, ways[:, 1] ** 2, ways[:, 2] ** 2,
+            ways[:, 1] * ways[:, 2], ways[:, 0] * ways[:, 2], ways[:, 0] * ways[:, 1],
+        ],
+        axis=1,
+    )  # fmt: skip
+    for rows in np.array_split(np.arange(len(elements)), len(elements) // AT_ONCE + 1):
+        strain = np.einsum("qi,qia->qa", stretch[rows], bricks.strains(places[rows]))
+        own = sizes[rows, None, None] * strain[:, :, None] * strain[:, None]
+        np.add.at(matrices, elements[rows], own.astype(np.float32))

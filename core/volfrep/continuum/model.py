@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A part of bricks that lattice and skin fill, solved for load cases; and its heat.
+
+Stress is brought down to the lattice's solid by the cell's own fields: each macroscopic stress in
+the cell's axes takes its share of what makes the solid yield, and the sum of these shares is what
+is told, which is never less than what all of them together take.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy import ndimage
+
+from ..loads.load_cases import LoadCase
+from ..mechanics.elements import solid_stiffness
+from ..mechanics.materials import SolidMaterial
+from ..util.errors import VolfrepError
+from ..util.progress import Monitor
+from ..util.types import Floats, Ints
+from ..voxels.bricks import von_mises
+from ..voxels.loaded import Loaded, VoxelCase
+from ..voxels.multigrid import Elements, Fine, Multigrid
+from .bricks import Bricks, Shares
+from .cell_law import in_cell
+
+#: Of the volume that is told of, so much may be stressed more.
+PEAKS = 0.001
+#: Elements with less lattice, or less skin, are not told of.
+TOLD = 0.1
+#: Of conjugate gradients for heat.
+MOST_STEPS = 5_000
+
+
+@dataclass(frozen=True, eq=False)
+class ContinuumModel:
+    """A filled part as a solid of bricks.
+
+    Attributes:
+        size: (nx, ny, nz) of the grid.
+        low: (3,) its first corner, mm.
+        elements: those that are there.
+        bricks: their integrals.
+        shares: what fills them.
+        matrices: (e, 24, 24) float32 N/mm.
+        lattice: (e, 6, 6) or (1, 6, 6) of the lattice, in the part's axes, MPa.
+        frames: (e, 3, 3) or (1, 3, 3) whose columns are the cells' axes.
+        density: (e,) or (1,) of the lattice, relative.
+        strength: (e, 2) or (1, 2) of the lattice along its edges and in shear, over the solid's.
+        conductivity: (e,) or (1,) of the lattice over the solid's.
+        material: the solid.
+        loaded: takes loads to the nodes.
+        across: how many cells lie across the part where it is thickest.
+    """
+
+    size: tuple[int, int, int]
+    low: Floats
+    elements: Elements
+    bricks: Bricks
+    shares: Shares
+    matrices: Floats
+    lattice: Floats
+    frames: Floats
+    density: Floats
+    strength: Floats
+    conductivity: Floats
+    material: SolidMaterial
+    loaded: Loaded
+    across: float
+
+    @property
+    def nodes(self) -> Floats:
+        """(n, 3) mm."""
+        return self.loaded.nodes
+
+
+@dataclass(frozen=True, eq=False)
+class ContinuumState:
+    """A load case solved.
+
+    Attributes:
+        case: on the nodes.
+        displacements: (n, 3) mm.
+        work: N mm, twice the energy.
+        use: (e,) share of the solid's yield stress in the lattice, at most; nan without one.
+        skin: (e,) MPa, von Mises in skin and kept solids, nominal; 0 where there is none.
+        steps: of the conjugate gradients.
+    """
+
+    case: VoxelCase
+    displacements: Floats
+    work: float
+    use: Floats
+    skin: Floats
+    steps: int
+
+
+def solve_continuum(
+    model: ContinuumModel,
+    cases: Sequence[LoadCase],
+    monitor: Monitor | None = None,
+    tolerance: float = 1e-6,
+) -> list[ContinuumState]:
+    """Solve load cases: those with equal supports with one solver.
+
+    Raises:
+        VolfrepError: a case does not fit the part, or it is not held.
+        Cancelled: when the monitor says so.
+    """
+    monitor = monitor or Monitor()
+    laid = [model.loaded.case(case) for case in cases]
+
+    def own_matrices(rows: Ints) -> Floats:
+        return model.matrices[rows].astype(float)
+
+    states: dict[int, ContinuumState] = {}
+    while len(states) < len(laid):
+        first = next(k for k in range(len(laid)) if k not in states)
+        held = laid[first].held
+        every = np.ones(len(model.matrices), bool)
+        fine = Fine(model.elements, every, np.zeros((24, 24)), own_matrices, ~held)
+        solver = Multigrid(fine, model.size, monitor)
+        for k, case in enumerate(laid):
+            if k not in states and np.array_equal(case.held, held):
+                right = case.loads
+                if case.moved.any():
+                    right = right - fine.full(case.moved)
+                moved, steps = solver.solve(right, tolerance=tolerance)
+                moved = moved + case.moved
+                work = float(np.vdot(moved, fine.full(moved)))
+                states[k] = ContinuumState(case, moved, work, *_stress(model, moved), steps)
+    return [states[k] for k in range(len(laid))]
+
+
+def _stress(model: ContinuumModel, moved: Floats) -> tuple[Floats, Floats]:
+    """(e,) share of yield in the lattice, at most, and (e,) MPa in the skin."""
+    own = moved[model.elements.nodes].reshape(-1, 24)
+    points = (np.array(np.meshgrid(*[(-1, 1)] * 3)).reshape(3, -1).T / np.sqrt(3.0) + 1.0) / 2.0
+    strains = model.bricks.strains(np.vstack([[[0.5] * 3], points]))
+    middle = own @ strains[0].T
+    stress = (model.lattice @ middle[:, :, None])[:, :, 0]
+    frames = np.broadcast_to(model.frames, (len(own), 3, 3))
+    local = np.abs(in_cell(stress, frames))
+    limit = model.material.yield_stress or np.nan
+    with np.errstate(divide="ignore", invalid="ignore"):
+        use = local[:, :3].sum(axis=1) / model.strength[:, 0]
+        use = (use + local[:, 3:].sum(axis=1) / model.strength[:, 1]) / limit
+    use = np.where(model.shares.lattice.mean(axis=1) > TOLD, use, 0.0)
+    law = solid_stiffness(model.material.young, model.material.poisson)
+    some = np.flatnonzero(model.shares.solid.max(axis=1) > TOLD)
+    skin = np.zeros(len(own))
+    for table in strains[1:]:
+        skin[some] = np.maximum(skin[some], von_mises(own[some] @ table.T @ law))
+    return use, skin
+
+
+def figures_of(model: ContinuumModel, state: ContinuumState) -> dict[str, Any]:
+    """What a load case came to, as plain JSON values."""
+    moved, case = state.displacements, state.case
+    size = np.linalg.norm(moved, axis=1)
+    most = int(size.argmax())
+    middles = (model.elements.place + 0.5) * model.bricks.edge + model.low
+    result: dict[str, Any] = {
+        "name": case.name,
+        "displacement_mm": float(size[most]),
+        "displacement_at": model.nodes[most].tolist(),
+        "loads": [
+            {"name": name, "moved_mm": (weights @ moved).tolist()} for name, weights in case.places
+        ],
+        "work_nmm": state.work,
+        "steps": state.steps,
+    }
+    for name, values, share in (
+        ("lattice_use", state.use, model.shares.lattice),
+        ("skin_mpa", state.skin, model.shares.solid),
+    ):  # fmt: skip
+        weights = share.mean(axis=1)
+        there = (weights > 0.0) & np.isfinite(values)
+        result[name] = result[f"{name}_at"] = None
+        if there.any() and values[there].any():
+            rows = np.flatnonzero(there)
+            order = rows[np.argsort(values[rows])]
+            total = np.cumsum(weights[order])
+            row = order[np.searchsorted(total, (1.0 - PEAKS) * total[-1])]
+            result[name], result[f"{name}_at"] = float(values[row]), middles[row].tolist()
+    return result
+
+
+def cells_across(shares: Floats, edge: Floats, cell_size: float) -> float:
+    """Cells across the largest ball in (nx, ny, nz) shares of lattice, to an element too many."""
+    inside = np.pad(shares > 0.5, 1)
+    deepest = float(ndimage.distance_transform_edt(inside).max())
+    return 2.0 * deepest * float(edge.mean()) / cell_size
+
+
+def conduct(
+    model: ContinuumModel, temperatures: Sequence[tuple[Any, float]], conductivity: float
+) -> tuple[Floats, Floats]:
+    """Steady heat between regions of given temperatures, nothing lost elsewhere.
+
+    Args:
+        model: the part.
+        temperatures: regions and what each is held at, K or degrees C.
+        conductivity: of the solid, W/(m K).
+
+    Returns:
+        (n,) temperatures of the nodes, and (regions,) W that each gives.
+
+    Raises:
+        VolfrepError: nothing of the part lies in a region, or there are none.
+    """
+    from scipy.sparse import csr_matrix
+
+    from ..loads.nodal_loads import nodes_in
+
+    if len(temperatures) < 2:
+        raise VolfrepError("Give two regions or more, each with its temperature.")
+    count = len(model.nodes)
+    own = conductivity * 1e-3 * model.conductivity[:, None, None] * np.eye(3)
+    blocks = model.bricks.conductances(model.shares, own, conductivity * 1e-3)
+    rows = np.repeat(model.elements.nodes, 8, axis=1).ravel()
+    columns = np.tile(model.elements.nodes, (1, 8)).ravel()
+    matrix = csr_matrix((blocks.ravel(), (rows, columns)), (count, count))
+    value, held = np.zeros(count), np.full(count, -1)
+    for k, (region, given) in enumerate(temperatures):
+        surface = np.zeros(len(model.loaded.body.nodes), bool)
+        surface[nodes_in(model.loaded.body, region)] = True
+        at = model.loaded.nodes_at(surface)[0]
+        value[at], held[at] = given, k
+    free = held < 0
+    value[free] = _conjugate(matrix[free][:, free], -(matrix[free] @ value))
+    flow = matrix @ value
+    return value, np.array([flow[held == k].sum() for k in range(len(temperatures))])
+
+
+def _conjugate(matrix: Any, right: Floats) -> Floats:
+    """The solution of positive definite equations, by conjugate gradients scaled by the diagonal.
+
+    Raises:
+        VolfrepError: no convergence.
+    """
+    inverse = 1.0 / np.maximum(matrix.diagonal(), 1e-300)
+    found, left = np.zeros_like(right), right.copy()
+    ahead = inverse * left
+    step, work = ahead, float(left @ ahead)
+    enough = 1e-18 * work
+    for _ in range(MOST_STEPS):
+        if work <= enough:
+            return found
+        image = matrix @ step
+        size = work / float(step @ image)
+        found += size * step
+        left -= size * image
+        ahead = inverse * left
+        before, work = work, float(left @ ahead)
+        step = ahead + work / before * step
+    raise VolfrepError("The heat's equations did not converge: do the regions hang together?")

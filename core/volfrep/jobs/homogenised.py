@@ -1,0 +1,446 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A filled part solved as a solid of its lattice's effective stiffness, whatever the cells' number.
+
+The lattice's stiffness follows the radius or wall thickness, the map of the cells and their
+turning; the skin lies where it is.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..continuum.border import border_bars
+from ..continuum.bricks import Bricks, Shares, add_bars, constants
+from ..continuum.cell_law import CellLaw, split, stretched_tensors, turned
+from ..continuum.deck import write_deck
+from ..continuum.model import (
+    ContinuumModel,
+    ContinuumState,
+    cells_across,
+    conduct,
+    figures_of,
+    solve_continuum,
+)
+from ..design.spec import LatticeSpec
+from ..grid.placement import node_radii
+from ..io.write.vtu import write_vtu
+from ..loads.load_cases import LoadCases
+from ..mechanics.elements import PARTS, solid_stiffness
+from ..mechanics.endless import strains_held
+from ..mesh.triangle_mesh import TriangleMesh
+from ..util.cache import StageCache
+from ..util.errors import VolfrepError
+from ..util.files import replacing
+from ..util.numbers import number
+from ..util.progress import Monitor, ProgressCallback
+from ..util.types import Floats, Ints
+from ..voxels.loaded import Loaded, surface_body
+from ..voxels.multigrid import elements_at
+from ..voxels.shares import VoxelGrid, fill_grid, grid_of
+from .figures.properties import lattice_properties
+from .infill import Infill
+
+#: So many elements, if the user does not say how large they are; where cells are more, one a cell
+#: up to the most.
+USUAL, MOST = 12_000, 150_000
+#: At so many thicknesses cells are looked up in the catalogue, or homogenised, where they vary.
+LOOKED_UP, HOMOGENISED = 17, 4
+#: Voxels along L of what is homogenised for this: moduli within 2 %.
+ALONG = 40
+#: Elements that are less full count as empty.
+EMPTY = 0.01
+#: Fewer cells across are warned of; and how far displacements were from those of beams with so
+#: many and free faces, where struts are stretched and where they are bent (docs/method.md).
+FEW_CELLS = 6
+STRETCHED, BENT = "9 %", "21 %"
+
+
+@dataclass(frozen=True, eq=False)
+class HomogenisedPart:
+    """A filled part that was solved as a homogenised solid.
+
+    Attributes:
+        model: its bricks.
+        states: of the load cases.
+        report: the figures, plain JSON values.
+    """
+
+    model: ContinuumModel
+    states: tuple[ContinuumState, ...]
+    report: dict[str, Any]
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Names and values, for people."""
+        return homogenised_rows(self.report)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write displacements and stress as .vtu, the figures as .json, or a CalculiX deck, .inp.
+
+        Raises:
+            VolfrepError: it is another extension, or cannot be written.
+        """
+        check_homogenised_file(path)
+        kind, model = Path(path).suffix.lower(), self.model
+        if kind == ".json":
+            self.write_report(path)
+        elif kind == ".inp":
+            write_deck(path, model, [state.case for state in self.states])
+        else:
+            points: dict[str, Any] = {}
+            cells: dict[str, Any] = {
+                "lattice": model.shares.lattice.mean(axis=1),
+                "skin": model.shares.solid.mean(axis=1),
+            }
+            for state in self.states:
+                points[f"displacement mm, {state.case.name}"] = state.displacements
+                cells[f"share of yield in the lattice, {state.case.name}"] = state.use
+                cells[f"stress in the skin MPa, {state.case.name}"] = state.skin
+            write_vtu(path, model.nodes, model.elements.nodes, points, cells)
+
+    def write_report(self, path: str | os.PathLike[str]) -> None:
+        """Write the figures as JSON."""
+        with replacing(path) as file:
+            file.write(json.dumps(self.report, indent=2).encode() + b"\n")
+
+    def conduct(
+        self, temperatures: Sequence[tuple[Any, float]], conductivity: float
+    ) -> tuple[Floats, Floats]:
+        """Steady heat between regions; see `continuum.model.conduct`."""
+        return conduct(self.model, temperatures, conductivity)
+
+
+def check_homogenised_file(path: str | os.PathLike[str]) -> None:
+    """Refuse a file of an extension that results are not written in.
+
+    Raises:
+        VolfrepError: naming those that they are.
+    """
+    if Path(path).suffix.lower() not in (".vtu", ".json", ".inp"):
+        raise VolfrepError(
+            "A homogenised part is written as .vtu (in colours, for ParaView), .json (the figures) "
+            f"or .inp (a CalculiX deck), not as '{Path(path).name}'."
+        )
+
+
+def homogenise_part(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    loads: LoadCases,
+    *,
+    element: float | None = None,
+    progress: ProgressCallback | None = None,
+    monitor: Monitor | None = None,
+    cache: StageCache | None = None,
+) -> HomogenisedPart:
+    """Solve a filled part as a homogenised solid under load cases.
+
+    Args:
+        solid: checked closed mesh, mm.
+        spec: what it is filled with, graded or not.
+        loads: the material, and what the part carries.
+        element: edge of the bricks, mm; None for what suits the part.
+        progress: called with the fraction done and the stage; returning False cancels.
+        monitor: in place of one of its own.
+        cache: keeps the costly stages of the part.
+
+    Raises:
+        VolfrepError: the lattice has no cells that repeat, nothing lies where a load acts, or the
+            part is not held.
+        Cancelled: the callback said so.
+    """
+    from .targets import solve_target
+
+    start = time.perf_counter()
+    cache = cache or StageCache()
+    monitor = monitor or Monitor(progress)
+    if spec.kind.endless is None or spec.output == "domain":
+        raise VolfrepError(
+            "Only a lattice of cells that repeat can be homogenised: choose a cell, and the output "
+            "part or lattice."
+        )
+    if spec.target is not None:
+        spec = solve_target(solid, spec, cache=cache, meshed=False).spec
+    infill = Infill(solid, spec, monitor=monitor, cache=cache)
+    mapping = infill.placement.mapping
+    if mapping is not None and not mapping.is_rigid and spec.kind.cube is None:
+        raise VolfrepError(
+            "Walls in cells that grow or lie about an axis cannot be homogenised: choose equal "
+            "cells, or a cell of struts."
+        )
+    with monitor.stage("elements", 0.3, 0.6):
+        model = continuum_model(infill, loads, element)
+    with monitor.stage("solving", 0.6, 1.0):
+        states = solve_continuum(model, loads.cases, monitor)
+    report = {
+        "material": loads.material.as_dict(),
+        "elements": len(model.elements.nodes),
+        "element_mm": model.bricks.edge.tolist(),
+        "cells_across": model.across,
+        "lattice_mm3": float(model.shares.lattice.mean(axis=1).sum() * np.prod(model.bricks.edge)),
+        "cases": [figures_of(model, state) for state in states],
+        "seconds": time.perf_counter() - start,
+        "notes": _notes(infill, model),
+    }
+    return HomogenisedPart(model, tuple(states), report)
+
+
+def continuum_model(
+    infill: Infill, loads: LoadCases, element: float | None = None
+) -> ContinuumModel:
+    """A part's bricks, filled by its skin and its lattice.
+
+    Raises:
+        VolfrepError: the bricks are no length, or nothing of the lattice lies in the part.
+    """
+    spec, solid = infill.spec, infill.solid
+    low, count, edge = _grid(infill, element)
+    shares, place = _shares(infill, low, count, edge)
+    size = (int(count[0]), int(count[1]), int(count[2]))
+    elements = elements_at(place, size)
+    bricks = Bricks(edge)
+    law = cell_law(spec)
+    middles = (place + 0.5) * edge + low
+    lattice, frames, thickness = _lattice(infill, law, middles)
+    material = loads.material
+    skin = constants(solid_stiffness(material.young, material.poisson))
+    matrices = bricks.matrices(shares, material.young * constants(lattice), skin)
+    if _is_whole(infill) and spec.kind.cube is not None:
+        _add_border(infill, bricks, matrices, place, (low, count), material.young)
+    filled = (shares.lattice * _of(law.at(law.density, thickness)) + shares.solid).mean(axis=1)
+    grid = VoxelGrid(low, edge, np.zeros(0), np.zeros(0, np.float32))
+    weighing = Loaded(
+        surface_body(solid, float(edge.max())), grid, elements, filled, material.density
+    )
+    all_lattice = np.zeros(size)
+    all_lattice[tuple(place.T)] = shares.lattice.mean(axis=1)
+    return ContinuumModel(
+        size, low, elements, bricks, shares, matrices, material.young * lattice, frames,
+        law.at(law.density, thickness), law.at(law.strength, thickness),
+        law.at(law.conductivity, thickness), material, weighing,
+        cells_across(all_lattice, edge, spec.cell_size),
+    )  # fmt: skip
+
+
+def _of(values: Floats) -> Floats:
+    return values[:, None] if values.ndim == 1 else values
+
+
+def _is_whole(infill: Infill) -> bool:
+    """Whether the lattice is of whole cells, which nothing cuts."""
+    return not infill.placement.is_cut
+
+
+def _grid(infill: Infill, element: float | None) -> tuple[Floats, Ints, Floats]:
+    """(3,) the first corner, (3,) how many bricks, (3,) their edges, mm."""
+    solid, length = infill.solid, infill.spec.cell_size
+    bounds = solid.bounds
+    if element is not None:
+        edge = number("element", element, "mm", positive=True)
+    else:
+        usual = float((abs(solid.volume) / USUAL) ** (1 / 3))
+        most = float((abs(solid.volume) / MOST) ** (1 / 3))
+        # A part of one cell, or a whole number of them; where there are many, one.
+        edge = length / np.ceil(length / usual - 1e-9) if usual < length else length
+        if edge < most:
+            edge = length * np.ceil(most / length)
+    count, edges = grid_of(bounds, float(edge))
+    if _is_whole(infill) and infill.cells is not None and infill.placement.mapping is None:
+        # Along the cells, so that none is cut by a brick's face.
+        cells = infill.cells.padded.cells
+        steps = np.floor((bounds[0] - cells.origin) / edge + 1e-6)
+        low = cells.origin + steps * edge
+        count = np.maximum(np.ceil((bounds[1] - low) / edge - 1e-6), 1).astype(np.int64)
+        return low, count, np.full(3, float(edge))
+    return bounds[0], count, edges
+
+
+def _shares(infill: Infill, low: Floats, count: Ints, edge: Floats) -> tuple[Shares, Ints]:
+    """What fills the bricks' parts, and the places of those that are not empty."""
+    spec, fine, step = infill.spec, count * PARTS, edge / PARTS
+    solid: Any = np.zeros(fine)
+    lattice: Any
+    if _is_whole(infill):
+        lattice = _cells_filled(infill, low, fine, step)
+    else:
+        inner = infill.domain.mesh if spec.skin is not None else infill.solid
+        lattice = fill_grid(inner, low, fine, step, infill.monitor)
+        if spec.with_skin:
+            whole = fill_grid(infill.solid, low, fine, step, infill.monitor)
+            solid = np.maximum(whole - lattice, 0.0)
+    own, hard = (_by_brick(each, count) for each in (lattice, solid))
+    there = (own + hard).mean(axis=3) > EMPTY
+    if not (own[there] > 0.0).any():
+        raise VolfrepError("No lattice lies in the part: choose smaller cells or a thinner skin.")
+    return Shares(own[there], hard[there]), np.argwhere(there)
+
+
+def _by_brick(shares: Floats, count: Ints) -> Floats:
+    """(nx, ny, nz, PARTS^3) float32 of the parts of all bricks."""
+    x, y, z = count.tolist()
+    split_up = shares.reshape(x, PARTS, y, PARTS, z, PARTS).transpose(0, 2, 4, 1, 3, 5)
+    result: Floats = split_up.reshape(x, y, z, -1).astype(np.float32)
+    return np.where(result > 1.0 - 1e-6, np.float32(1.0), result)
+
+
+def _cells_filled(infill: Infill, low: Floats, fine: Ints, step: Floats) -> Floats:
+    """(fine) 1 where an active cell is."""
+    assert infill.cells is not None
+    cells, active = infill.cells.padded.cells, infill.cells.active
+    mapping = infill.placement.mapping
+    origin = cells.origin
+    result = np.zeros(fine)
+    y, z = (low[k] + (np.arange(fine[k]) + 0.5) * step[k] for k in (1, 2))
+    for plane in range(int(fine[0])):
+        points = np.stack(np.meshgrid([low[0] + (plane + 0.5) * step[0]], y, z, indexing="ij"), -1)
+        points = points.reshape(-1, 3)
+        if mapping is not None:
+            points = mapping.to_lattice(points)
+        at = np.floor((points - origin) / cells.cell_size).astype(np.int64)
+        inside = ((at >= 0) & (at < active.shape)).all(axis=1)
+        held = np.zeros(len(at))
+        held[inside] = active[tuple(at[inside].T)]
+        result[plane] = held.reshape(int(fine[1]), int(fine[2]))
+    return result
+
+
+def cell_law(spec: LatticeSpec) -> CellLaw:
+    """What a specification's lattice is as a material, at all thicknesses that it has."""
+    kind, grading = spec.kind, spec.radius_grading
+    values = [kind.thickness]
+    if grading is not None and grading.extremes[0] < grading.extremes[1]:
+        known = kind.catalogue_cell is not None and not spec.fillet
+        values = np.linspace(*grading.extremes, LOOKED_UP if known else HOMOGENISED).tolist()
+    along = {} if kind.has_struts else {"along": ALONG}
+    found = []
+    for value in values:
+        wish: dict[str, Any] = {**(kind.endless or {}), kind.measure: value, **along}
+        found.append(lattice_properties(**wish))
+    return CellLaw(
+        np.array(values),
+        np.array([one.relative_density for one in found]),
+        np.array([one.stiffness for one in found]),
+        np.array([[one.values["strength"], one.values["shear_strength"]] for one in found]),
+        np.array([one.values["conductivity"] for one in found]),
+    )
+
+
+def _lattice(infill: Infill, law: CellLaw, middles: Floats) -> tuple[Floats, Floats, Floats]:
+    """Stiffness in the part's axes, the cells' axes, and how thick, at the bricks' middles.
+
+    One row each where all are alike.
+    """
+    spec, placement = infill.spec, infill.placement
+    if spec.radius_grading is None:
+        thickness = law.thickness[:1]
+    else:
+        thickness = node_radii(spec.struts, middles, placement)
+    mapping = placement.mapping
+    if mapping is None:
+        return law.tensors_at(thickness), np.eye(3)[None], thickness
+    if mapping.is_rigid:
+        frames, _ = split(mapping.jacobians(mapping.to_lattice(middles[:1])))
+        return turned(law.tensors_at(thickness), frames), frames, thickness
+    cell = spec.kind.cube
+    assert cell is not None  # `homogenise_part` has refused others
+    jacobians = mapping.jacobians(mapping.to_lattice(middles))
+    frames, stretches = split(jacobians)
+    radii = np.broadcast_to(thickness, len(middles))
+    tensors = stretched_tensors(cell, spec.cell_size, radii, stretches, law)
+    return turned(tensors, frames), frames, radii
+
+
+def _add_border(
+    infill: Infill, bricks: Bricks, matrices: Floats, place: Ints, grid: tuple[Floats, Ints],
+    young: float,
+) -> None:  # fmt: skip
+    """Add the struts in free faces that the homogenised cells lack, in place."""
+    spec, mapping = infill.spec, infill.placement.mapping
+    low, count = grid
+    assert infill.cells is not None
+    assert spec.kind.cube is not None
+    cells, active = infill.cells.padded.cells, infill.cells.active
+    origin = cells.origin
+    bars = border_bars(spec.kind.cube, active)
+    # Two pieces or more in every brick, so that a bar has no gap.
+    pieces = 2 * int(np.ceil(cells.cell_size / float(bricks.edge.min()) - 1e-6))
+    share = (np.arange(pieces + 1) / pieces)[None, :, None]
+    points = bars.start[:, None] + (bars.end - bars.start)[:, None] * share
+    points = (points * cells.cell_size + origin).reshape(-1, 3)
+    if mapping is not None:
+        points = mapping.to_part(points)
+    points = points.reshape(-1, pieces + 1, 3)
+    span = np.diff(points, axis=1).reshape(-1, 3)
+    middles = (0.5 * (points[:, 1:] + points[:, :-1])).reshape(-1, 3)
+    length = np.linalg.norm(span, axis=1)
+    radii = node_radii(spec.struts, middles, infill.placement)
+    sizes = np.repeat(bars.shares, pieces) * length * np.pi * radii**2 * young
+    number_of = np.full(tuple(count), -1, np.int64)
+    number_of[tuple(place.T)] = np.arange(len(place))
+    # A bar in a free face lies between bricks that are there and others: it takes what is there.
+    inside = (middles - low) / bricks.edge
+    best, at = np.full(len(inside), -1, np.int64), np.zeros_like(inside)
+    for nudge in np.array(np.meshgrid(*[(-1e-6, 1e-6)] * 3)).reshape(3, -1).T:
+        where = np.floor(inside + nudge).astype(np.int64)
+        valid = ((where >= 0) & (where < count)).all(axis=1) & (best < 0)
+        rows = np.flatnonzero(valid)
+        found = number_of[tuple(where[rows].T)]
+        best[rows] = found
+        at[rows] = inside[rows] - where[rows]
+    kept = best >= 0
+    way = span[kept] / length[kept, None]
+    add_bars(matrices, bricks, best[kept], np.clip(at[kept], 0.0, 1.0), way, sizes[kept])
+
+
+def _notes(infill: Infill, model: ContinuumModel) -> list[str]:
+    """What the user should know of the figures."""
+    cell = infill.spec.kind.cube
+    bent = cell is not None and strains_held(cell) < 6
+    error = BENT if bent else STRETCHED
+    found = []
+    if model.across < FEW_CELLS:
+        found.append(
+            f"Only {model.across:.2g} cells lie across the part where it is thickest: as a "
+            f"homogenised solid it may move by more than {error} less or more than its lattice "
+            f"does; choose smaller cells, or solve it with beams."
+        )
+    elif bent:
+        found.append(
+            "The struts of this cell are bent, not stretched: without a skin about it the lattice "
+            f"may be up to {BENT} stiffer than said here, less the more cells lie across."
+        )
+    return found
+
+
+def homogenised_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """The figures as lines for a user."""
+    edge = sum(report["element_mm"]) / 3.0
+    rows = [
+        ("elements", f"{report['elements']:,} of {edge:.3g} mm"),
+        ("cells across", f"{report['cells_across']:.3g} where it is thickest"),
+    ]
+    for case in report["cases"]:
+        rows.append(
+            (
+                f"case {case['name']}",
+                f"moves {case['displacement_mm']:.4g} mm; work {case['work_nmm'] / 2:.4g} N mm",
+            )
+        )
+        for load in case["loads"]:
+            moved = ", ".join(f"{value:.4g}" for value in load["moved_mm"])
+            rows.append(("", f"'{load['name']}' moves by ({moved}) mm"))
+        if case["lattice_use"] is not None:
+            at = ", ".join(f"{value:.4g}" for value in case["lattice_use_at"])
+            rows.append(("", f"lattice up to {case['lattice_use']:.0%} of its yield, at ({at}) mm"))
+        if case["skin_mpa"] is not None:
+            at = ", ".join(f"{value:.4g}" for value in case["skin_mpa_at"])
+            rows.append(("", f"skin up to {case['skin_mpa']:.4g} MPa, nominal, at ({at}) mm"))
+    rows.append(("time", f"{report['seconds']:.3g} s"))
+    return rows

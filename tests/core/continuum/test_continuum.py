@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Homogenised parts against closed forms, beams with a shell skin, and CalculiX on their deck."""
+
+import json
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+import trimesh
+
+import volfrep
+from command import run
+from volfrep import LatticeSpec, VolfrepError
+from volfrep.continuum.bricks import Bricks, Shares, constants
+from volfrep.continuum.cell_law import split, stretched_tensors, turned
+from volfrep.design.cells import LIBRARY, PAPERS
+from volfrep.design.grading import Orientation, RadiusGrading, SizeGrading
+from volfrep.design.profile import Profile
+from volfrep.io.solid import check_solid
+from volfrep.jobs.homogenised import cell_law, homogenise_part
+from volfrep.jobs.sizing.sizing import solve_struts
+from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
+from volfrep.loads.regions import InPlane
+from volfrep.mechanics.catalogue import catalogue
+from volfrep.mechanics.materials import find_material
+from volfrep.mechanics.tensor import young
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.sizing.tapered_beams import energies
+from volfrep.util.linalg import rotation
+
+WHOLE = {"cell_size": 10, "shell": 0, "boundary": "whole", "activation": "inside"}
+PA12 = find_material("PA12")
+FREE = (True, True, True)
+
+
+def block(x, y, z):
+    shape = trimesh.creation.box((x, y, z))
+    shape.apply_translation((x / 2, y / 2, z / 2))
+    return check_solid(TriangleMesh(shape.vertices, shape.faces.astype(np.int32)), "box")
+
+
+def end(x):
+    return InPlane((x, 0, 0), (1, 0, 0))
+
+
+def moved(length, displacement, name="pull"):
+    """One end held, the other moved, both free to turn."""
+    held = Support(end(0), turns=FREE)
+    return LoadCase(name, (held, Support(end(length), displacement, FREE)))
+
+
+def loaded(length, force=(0, 0, -100.0)):
+    return LoadCase("bend", (Support(end(0)),), (Force(end(length), force),))
+
+
+def test_bricks_of_any_stiffness_pass_the_patch_test_filled_or_half_filled():
+    rng = np.random.default_rng(0)
+    root = rng.standard_normal((6, 6))
+    stiffness = root @ root.T
+    edge = np.array([2.0, 1.5, 1.0])
+    bricks = Bricks(edge)
+    shares = np.zeros((2, 64), np.float32)
+    shares[0], shares[1, :32] = 1.0, 1.0  # all of it, and half of it along x
+    rest = Shares(shares, np.zeros_like(shares))
+    matrices = bricks.matrices(rest, constants(stiffness)[None], np.zeros(21))
+    gradient = rng.standard_normal((3, 3))
+    corners = np.array([[k >> 2 & 1, k >> 1 & 1, k & 1] for k in range(8)]) * edge
+    nodes = (corners @ gradient.T).ravel()
+    e = 0.5 * (gradient + gradient.T)
+    strain = np.array([e[0, 0], e[1, 1], e[2, 2], 2 * e[1, 2], 2 * e[0, 2], 2 * e[0, 1]])
+    energy = strain @ stiffness @ strain * edge.prod()
+    assert nodes @ matrices[0] @ nodes == pytest.approx(energy, rel=1e-5)
+    assert nodes @ matrices[1] @ nodes == pytest.approx(energy / 2, rel=1e-5)
+
+
+def test_turned_and_stretched_cells_are_what_they_were_where_nothing_is_done():
+    turn = rotation(np.array([1.0, 2.0, 3.0]), 0.7)
+    tensor = catalogue()["FCC"].tensor(0.08)
+    after = turned(tensor[None], turn[None])[0]
+    for way in np.eye(3):
+        assert young(after, turn @ way) == pytest.approx(young(tensor, way))
+    assert turned(after[None], turn.T[None])[0] == pytest.approx(tensor)
+    frames, stretches = split((turn @ np.diag([1.0, 1.2, 0.9]))[None])
+    assert frames[0] == pytest.approx(turn)
+    assert stretches[0] == pytest.approx(np.diag([1.0, 1.2, 0.9]))
+    law = cell_law(LatticeSpec("Octet", strut_radius=0.8, cell_size=10))
+    same = stretched_tensors(LIBRARY["Octet"], 10.0, np.array([0.8]), np.eye(3)[None], law)
+    assert same[0] == pytest.approx(law.tensors[0], rel=0.12, abs=1e-5)
+    longer = stretched_tensors(
+        LIBRARY["Octet"], 10.0, np.array([0.8]), np.diag([1.5, 1.0, 1.0])[None], law
+    )
+    assert longer[0, 0, 0] > longer[0, 1, 1]  # struts lean towards x
+
+
+def test_whole_cells_have_all_struts_of_their_free_faces():
+    """Closed form: a block of Box pulled along x is its (n + 1)^2 struts, side by side."""
+    loads = LoadCases(PA12, (moved(60, (0.06, None, None)),))
+    spec = LatticeSpec("Box", strut_radius=0.5, **WHOLE)
+    made = homogenise_part(block(60, 30, 30), spec, loads, element=5)
+    closed = PA12.young * 16 * np.pi * 0.25 / 60 * 0.06**2
+    # Joints stiffen them by some percent.
+    assert closed < made.report["cases"][0]["work_nmm"] < 1.08 * closed
+    assert "3 cells" in made.report["notes"][0]
+
+
+def compared(solid, spec, case):
+    """Homogenised over beams: twice the energy."""
+    loads = LoadCases(PA12, (case,))
+    model, found = solve_struts(solid, spec, loads)
+    if case.loads:
+        beams = float(found.compliance[0])
+    else:
+        own = model.problem.structure.beams
+        flexibility = own.flexibility(model.problem.radii.of_struts(found.radii))
+        beams = float((energies(found.forces, found.forces)[:, :, 0] * flexibility).sum())
+    made = homogenise_part(solid, spec, loads)
+    return made.report["cases"][0]["work_nmm"] / beams
+
+
+def test_a_skinned_part_moves_as_beams_and_shells_do():
+    spec = LatticeSpec("Octet", cell_size=10, strut_radius=0.8, shell=2)
+    assert compared(block(80, 40, 40), spec, loaded(80)) == pytest.approx(1, abs=0.05)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("cell", PAPERS)
+def test_skinned_parts_of_six_cells_move_as_beams_and_shells_do(cell):
+    spec = LatticeSpec(cell, cell_size=10, strut_radius=0.8, shell=2)
+    assert compared(block(120, 60, 60), spec, loaded(120)) == pytest.approx(1, abs=0.055)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("cell", PAPERS)
+def test_whole_blocks_of_six_cells_are_pulled_as_beams_are(cell):
+    spec = LatticeSpec(cell, strut_radius=0.8, **WHOLE)
+    found = compared(block(120, 60, 60), spec, moved(120, (0.1, None, None)))
+    assert found == pytest.approx(1, abs=0.05)
+
+
+def test_gradings_turns_and_maps_are_followed():
+    solid, case = block(60, 20, 20), loaded(60, (100.0, 0, 0))
+    loads = LoadCases(PA12, (case,))
+
+    def work(cell="Octet", **more):
+        given = {"cell_size": 5, "strut_radius": 0.4, "shell": 0, **more}
+        made = homogenise_part(solid, LatticeSpec(cell, **given), loads, element=2.5)
+        return made.report["cases"][0]["work_nmm"]
+
+    even = work()
+    graded = work(radius_grading=RadiusGrading("direction", Profile("linear", 0.3, 0.5)))
+    assert work(strut_radius=0.5) < graded < work(strut_radius=0.3)
+    # Struts of cells that grow along the pull lean towards it.
+    assert work(size_grading=SizeGrading(Profile("linear", 1.0, 1.6))) < 0.9 * even
+    assert work("Box", orientation=Orientation(angle=45)) > 3 * work("Box")
+
+
+@pytest.mark.slow
+def test_growing_cells_are_pulled_as_their_beams_are():
+    grown = SizeGrading(Profile("linear", 1.0, 1.5))
+    spec = LatticeSpec("Octet", cell_size=10, strut_radius=0.8, shell=2, size_grading=grown)
+    assert compared(block(120, 60, 60), spec, loaded(120)) == pytest.approx(1, abs=0.08)
+
+
+def test_what_does_not_repeat_is_refused():
+    loads = LoadCases(PA12, (loaded(40),))
+    spec = LatticeSpec(
+        "Gyroid", cell_size=5, shell=0, size_grading=SizeGrading(Profile("linear", 1.0, 1.5))
+    )
+    with pytest.raises(VolfrepError, match="cannot be homogenised"):
+        homogenise_part(block(40, 20, 20), spec, loads)
+
+
+def test_heat_runs_along_a_bar_as_its_conductivity_says():
+    loads = LoadCases(PA12, (loaded(60),))
+    spec = LatticeSpec("Octet", strut_radius=0.8, cell_size=10, shell=0)
+    made = homogenise_part(block(60, 30, 30), spec, loads)
+    values, flow = made.conduct([(end(0), 100.0), (end(60), 20.0)], 0.25)
+    share = cell_law(spec).conductivity[0]
+    expected = 0.25e-3 * share * 900 / 60 * 80
+    assert flow == pytest.approx([expected, -expected], rel=1e-4)
+    middle = np.abs(made.model.nodes[:, 0] - 30) < 1e-6
+    assert values[middle] == pytest.approx(60.0)
+
+
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
+def test_calculix_solves_the_deck_alike(tmp_path):
+    spec = LatticeSpec(
+        "FCC", cell_size=10, strut_radius=0.8, shell=2, orientation=Orientation(angle=30)
+    )
+    loads = LoadCases(PA12, (loaded(80),))
+    made = homogenise_part(block(80, 40, 40), spec, loads, element=5)
+    made.save(tmp_path / "part.inp")
+    text = (tmp_path / "part.inp").read_text()
+    assert "*ELASTIC,TYPE=ORTHO" in text
+    assert "*ORIENTATION" in text
+    subprocess.run(["ccx", "part"], cwd=tmp_path, check=True, capture_output=True, timeout=300)
+    rows = [line.split() for line in (tmp_path / "part.dat").read_text().splitlines()]
+    found = np.array([row for row in rows if len(row) == 4 and row[0].isdigit()], float)
+    moved_nodes = made.states[0].displacements
+    assert len(found) == len(moved_nodes)
+    # A brick's mean of skin and lattice bends less stiffly than a skin at its place.
+    far = np.abs(moved_nodes[:, 2]).max()
+    assert np.abs(found[:, 3]).max() == pytest.approx(far, rel=0.25)
+
+
+def test_the_command_and_the_call_say_the_same(tmp_path, capsys):
+    solid = block(40, 20, 20)
+    part, loads = tmp_path / "part.stl", tmp_path / "loads.toml"
+    trimesh.Trimesh(solid.vertices, solid.triangles).export(part)
+    loads.write_text(
+        'material = "PA12"\n[[support]]\nplane = {point = [0, 0, 0], normal = [1, 0, 0]}\n'
+        "fixed = true\n[[case]]\n[[case.load]]\nforce = [100, 0, 0]\n"
+        "plane = {point = [40, 0, 0], normal = [1, 0, 0]}\n"
+    )
+    told = tmp_path / "told.json"
+    given = ["--cell", "Octet", "--cell-size", "5", "--strut-radius", "0.4", "--shell", "1"]
+    call = ["homogenise", str(part), "--loads", str(loads), *given, "--report", str(told)]
+    assert run(*call, "-o", tmp_path / "part.vtu") == 0
+    assert "cells across" in capsys.readouterr().out
+    case = json.loads(told.read_text())["cases"][0]
+    made = volfrep.homogenise(part, loads, cell="Octet", cell_size=5, strut_radius=0.4, shell=1)
+    assert made.report["cases"][0]["displacement_mm"] == pytest.approx(case["displacement_mm"])
+    assert (tmp_path / "part.vtu").stat().st_size > 10_000
+    assert run(*call, "-o", tmp_path / "part.obj") == 2

@@ -111,15 +111,13 @@ def stretched_tensors(
     for k, row in enumerate(first.tolist()):
         stretch, ratio = stretches[row], float(radii[row]) / cell_size
         grown = float(np.cbrt(np.linalg.det(stretch)))
-        law_ends = ends(float(radii[row]) / grown)
+        radius = float(radii[row])
         shape = PeriodicFrame(
             frame.nodes, frame.struts, frame.start @ stretch, frame.end @ stretch, grown**3
         )
-        own, even = (
-            frame_tensor(one, radius, law_ends)
-            for one, radius in ((shape, ratio), (frame, ratio / grown))
-        )
-        wanted = law.tensors_at(np.array([radii[row] / grown]))[0]
+        own = frame_tensor(shape, ratio, ends(radius / grown))
+        even = frame_tensor(frame, ratio, ends(radius))
+        wanted = law.tensors_at(np.array([radius]))[0]
         found[k] = own * float(np.trace(wanted) / np.trace(even))
     result: Floats = found[group.ravel()]
     return result

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The calls that make a part: fill, size, block, a graph, layers."""
+"""The calls that make a part: fill, size, block, a graph, layers.
+
+It is long because the text of each call is its reference.
+"""
 
 from __future__ import annotations
 

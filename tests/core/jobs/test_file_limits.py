@@ -29,7 +29,7 @@ JOBS = [
     (("--cell", "CVC", "--cell-size", 10, "--strut-radius", 1), "3mf", None, 0.15),
     (("--cell", "CVC", "--cell-size", 10, "--strut-radius", 1), "ply", 15_000, None),
     (("--cell", "Gyroid", "--cell-size", 10, "--wall-thickness", 1), "stl", 65_000, None),
-    (("--cell", "Box", "--cell-size", 5, "--strut-radius", 0.5), "obj", 60_000, 3.0),
+    (("--cell", "Box", "--cell-size", 5, "--strut-radius", 0.5), "obj", 60_000, 1.4),
 ]
 
 

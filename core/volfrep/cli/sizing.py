@@ -30,7 +30,7 @@ from .solving import tell_expected
 from .telling import print_rows, print_summary, print_warnings
 
 if TYPE_CHECKING:
-    from ..jobs.sizing import SizedPart
+    from ..jobs.sizing import Goal, SizedPart
     from ..sizing.optimise import Step
 
 #: What a script is told of a part that does not hold a limit, though it is written.
@@ -71,7 +71,7 @@ def _size(given: argparse.Namespace) -> int | None:
         with _stopping(progress) as told:
             made = size(
                 solid, spec, loads, goal, most_steps=options.steps, prove_it=options.prove,
-                progress=told, cache=cache, watch=_teller(options.quiet, options.steps),
+                progress=told, cache=cache, watch=_teller(options.quiet, options.steps, goal),
             )  # fmt: skip
         seconds = time.perf_counter() - start
         streamed = options.form.streamed and not options.prove_file
@@ -138,17 +138,21 @@ def _stopping(progress: ProgressCallback) -> Iterator[ProgressCallback]:
             signal.signal(number, handler)
 
 
-def _teller(quiet: bool, most_steps: int) -> Callable[[int, Step], bool] | None:
+def _teller(quiet: bool, most_steps: int, goal: Goal) -> Callable[[int, Step], bool] | None:
     """Tells every step on standard error: its figures, and how long the rest takes at most."""
     if quiet:
         return None
     start = time.perf_counter()
 
+    what = "struts"
+    if goal.skin_thinnest is not None:
+        what, most_steps = "struts and skin", 2 * most_steps
+
     def tell_step(number: int, step: Step) -> bool:
         nonlocal start
         now = time.perf_counter()
         uses = ", ".join(f"{name} {use:.0%}" for name, use in step.uses.items())
-        text = f"step {number + 1}: struts {step.volume:,.0f} mm3" + f", {uses}" * bool(uses)
+        text = f"step {number + 1}: {what} {step.volume:,.0f} mm3" + f", {uses}" * bool(uses)
         if number:
             each = (now - start) / number
             rest = each * max(most_steps - number - 1, 0)

@@ -11,11 +11,12 @@ from volfrep import LatticeSpec
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing import Goal
 from volfrep.jobs.sizing.part_model import part_model
-from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
+from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Moment, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.sizing.analysis import Limits, analyse
 from volfrep.sizing.model import with_sized_skin
+from volfrep.sizing.optimise import lightest, uniform
 from volfrep.util.cache import StageCache
 from volfrep.util.progress import Monitor
 
@@ -99,3 +100,47 @@ def test_its_derivatives_are_those_of_differences():
             (high.volume - low.volume) / 2e-4, rel=1e-6
         )
     assert found.volume == pytest.approx(problem.radii.volume(place))
+
+
+@pytest.mark.slow
+def test_a_tube_in_torsion_has_the_mass_of_bredts_formula():
+    """The twist of M S / (4 A2 G t) allowed: walls of t, away from the ends."""
+    length, width, height, wanted, moment = 160.0, 40.0, 30.0, 1.0, 250e3
+    _, problem, first = tube(
+        (length, width, height), lambda region: Moment(region, (moment, 0, 0)),
+        bounds=(0.3, 6.0), patch=15.0, shell=wanted, cell=15.0, radius=0.3,
+    )  # fmt: skip
+    b, h, shear = width - wanted, height - wanted, TITANIUM.young / (2.0 + 2.0 * TITANIUM.poisson)
+    twist = moment * length * 2.0 * (b + h) / (4.0 * (b * h) ** 2 * shear * wanted)
+    limits = Limits(displacement=twist * np.hypot(0.5 * width, 0.5 * height))
+    sized = lightest(problem, limits, first, most_steps=30)
+    assert sized.holds
+    skin = problem.skin
+    places = skin.skin.middle[skin.skin.shells.triangles].mean(axis=1)
+    clear = np.abs(places[:, 0] - 0.5 * length) < 0.5 * length - 30.0
+    thick, area = skin.of_shells(sized.analysis.radii)[clear], skin.skin.shells.area[clear]
+    assert thick @ area / area.sum() == pytest.approx(wanted, rel=0.05)
+
+
+@pytest.mark.slow
+def test_flanges_of_a_cantilever_follow_the_moment():
+    """M / (sigma b h), less what the webs bear. These end thicker than they need be."""
+    (length, width, height), stress, force, least = (200.0, 40.0, 30.0), 300.0, 2500.0, 0.4
+    _, problem, first = tube(
+        (length, width, height), lambda region: Force(region, (0, 0, -force)),
+        bounds=(least, 6.0), patch=10.0, shell=1.0, cell=15.0, radius=0.3,
+    )  # fmt: skip
+    sized = lightest(problem, Limits(skin_stress=stress), first, most_steps=40)
+    assert sized.holds
+    skin = problem.skin
+    thick = skin.of_shells(sized.analysis.radii)
+    x, y, z = skin.skin.middle[skin.skin.shells.triangles].mean(axis=1).T
+    flange = ((z < 2.0) | (z > height - 2.0)) & (np.abs(y - 0.5 * width) < 12.0)
+    b, h = width - 1.0, height - 1.0
+    for place in (35.0, 65.0, 95.0, 125.0):
+        wanted = (force * (length - place) / stress - least * h**2 / 3.0) / (b * h)
+        near = flange & (np.abs(x - place) < 8.0)
+        assert thick[near].mean() == pytest.approx(wanted, rel=0.1)
+    even = uniform(problem, Limits(skin_stress=stress))[0]
+    assert np.ptp(skin.wanted(even.radii)) < 1e-9
+    assert sized.analysis.volume < 0.9 * even.volume

@@ -38,6 +38,7 @@ def folder(archive: Path, tmp_path: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow
 def test_the_archive_breaks_no_rule_of_the_index(archive: Path) -> None:
     assert tool("index_review").review(archive) == []
     assert archive.stat().st_size < 5_000_000

@@ -12,6 +12,7 @@ check = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(check)
 
 
+@pytest.mark.slow_cases("tests/core/trim/test_prune.py-trim/test_prune.py-0")
 @pytest.mark.parametrize(
     ("file", "test", "distance"),
     [

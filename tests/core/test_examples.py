@@ -23,6 +23,7 @@ WITH_EXAMPLES = sorted(
 @pytest.mark.slow_cases(
     "volfrep.studies.sweep",
     "volfrep.tpms.widths",
+    "volfrep.mechanics.density",
     "volfrep.mechanics.summary",
     "volfrep.reports.largest_ball",
 )

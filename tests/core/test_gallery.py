@@ -147,7 +147,7 @@ def test_a_script_is_short_and_takes_public_names_only(name: str) -> None:
                 assert node.attr in volfrep.__all__
 
 
-@pytest.mark.slow_cases("dask_study")
+@pytest.mark.slow_cases("dask_study", "optimise", "own_cell", "tpms_formula", "fem_field")
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_a_script_does_what_it_says(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

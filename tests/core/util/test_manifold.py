@@ -86,6 +86,7 @@ def without(tmp_path_factory):
     return folder, dict(zip([*MADE, *REFUSED], results, strict=True))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MADE)
 def test_without_the_package_it_is_made(name, without):
     folder, results = without
@@ -94,6 +95,7 @@ def test_without_the_package_it_is_made(name, without):
     assert (folder / name).exists()
 
 
+@pytest.mark.slow
 def test_the_part_without_it_is_the_part(without, tmp_path):
     """Closed, and of the volume that the one with it has; the skin's facets are more, as told."""
     import volfrep
@@ -113,6 +115,7 @@ def test_the_part_without_it_is_the_part(without, tmp_path):
     assert mesh.volume == pytest.approx(block.report.volume_mm3, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", REFUSED)
 def test_what_needs_it_says_so_in_one_sentence(what, without):
     folder, results = without

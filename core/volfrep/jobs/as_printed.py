@@ -12,13 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..design.as_printed import PrintedTable
-from ..design.cells import UnitCell
-from ..design.graphs.graph import StretchedCells
 from ..design.spec import LatticeSpec
 from ..grid.strut_graph import Wireframe
 from ..reports.printability import inclinations, unit_direction
 from ..util.errors import VolfrepError
-from ..util.linalg import times
+from ..util.linalg import along, times
 from ..util.types import Floats
 
 #: Radii that differ by less are the same, relative.
@@ -86,11 +84,11 @@ def as_printed(
         np.maximum.at(grown, lattice.struts[:, k], printed[:, k] / diameters[:, k])
     ends = lattice.nodes[lattice.struts]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    swelling = length @ (printed**2).mean(axis=1) / (length @ (diameters**2).mean(axis=1))
+    solid, drawn = ((length * (across**2).mean(axis=1)).sum() for across in (printed, diameters))
     struts = replace(lattice, radii=printed / 2.0, joint_radii=lattice.joint_radii * grown)
     return Printed(
         table, struts, (float(printed.min()), float(printed.max())),
-        (float(diameters.min()), float(diameters.max())), float(swelling),
+        (float(diameters.min()), float(diameters.max())), float(solid / drawn),
     )  # fmt: skip
 
 
@@ -112,19 +110,17 @@ def compensated(
     """
     up = unit_direction(build_direction)
     straight = spec.size_grading is None and spec.cell_map is None
-    is_of_cells = isinstance(spec.cell, UnitCell)
-    is_of_cells &= spec.network is None or isinstance(spec.network, StretchedCells)
-    if not is_of_cells or not straight or spec.radius_grading is not None or spec.target:
+    if spec.kind.cube is None or not straight or spec.radius_grading is not None or spec.target:
         raise VolfrepError(
             "Struts are compensated in cells along straight axes, by one radius that is given: "
             "leave gradings, maps, targets and other kinds of lattice out."
         )
-    cell = spec.unit_cell()
+    cell = spec.kind.cube
     ends = cell.nodes[cell.struts] * np.array(cell.edges)
     way = ends[:, 1] - ends[:, 0]
     if spec.orientation is not None:
         way = times(way, spec.orientation.matrix.T)
-    rise = np.abs(way @ up) / np.linalg.norm(way, axis=1)
+    rise = np.abs(along(way, up)) / np.linalg.norm(way, axis=1)
     angle = np.degrees(np.arcsin(np.minimum(rise, 1.0)))
     widths = cell.widths if len(cell.widths) else np.ones(len(way))
     wanted = 2.0 * spec.strut_radius * widths

@@ -129,5 +129,5 @@ def _summed(at: Ints, steps: Ints, grid: PixelGrid) -> tuple[NDArray[np.uint8], 
     length = np.diff(np.concatenate([where, [rows * columns]]))
     whole = PLACES * LINES
     grey = np.rint(share * (255 / whole)).astype(np.uint8)
-    area = float(share @ length) / whole * grid.pixel**2
+    area = float((share * length).sum()) / whole * grid.pixel**2
     return np.repeat(grey, length).reshape(rows, columns), area

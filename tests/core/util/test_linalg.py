@@ -16,11 +16,12 @@ from volfrep.util import linalg
 ENGINE = Path(volfrep.__file__).parent
 #: Rooms that no coordinate of a file comes from, and modules that only tell figures.
 #: What a solver finds (loads, radii sized to them) is no more exact than its own sums.
-FIGURES = ("mechanics", "fem", "reports", "cli", "loads", "sizing")
+FIGURES = ("mechanics", "fem", "reports", "cli", "loads", "sizing", "voxels", "continuum")
 FIGURES_OF = (
     "jobs/preview.py",
     "jobs/rough_radius.py",
     "jobs/sizing/notes.py",
+    "jobs/sizing/skin_search.py",
     "design/forecast.py",
     "design/kinds/strut_cells.py",
     "grid/congruent_joints.py",

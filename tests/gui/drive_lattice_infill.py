@@ -423,7 +423,7 @@ def cancel_an_edit(doc, obj):
     """Escape during a recompute keeps the last mesh and says so."""
     before, documents = obj.Mesh.CountFacets, len(App.listDocuments())
     seen = []
-    obj.Deviation = 0.002
+    obj.Resolution, obj.Deviation = 0, 0.002
     obj.CellSize = 2.5
     obj.StrutRadius = 0.25
     obj.ShellThickness = 0.4
@@ -443,7 +443,7 @@ def cancel_an_edit(doc, obj):
     check("no key reached FreeCAD", len(App.listDocuments()) == documents)
     check("no bar stays", Gui.getMainWindow().findChild(QtGui.QWidget, "VolfrepCancel") is None)
     check("no wait cursor stays", QtGui.QApplication.overrideCursor() is None)
-    obj.Deviation = 0
+    obj.Resolution, obj.Deviation = 10, 0
     obj.CellSize = 10
     obj.StrutRadius = 1
     obj.ShellThickness = 1

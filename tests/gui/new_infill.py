@@ -37,7 +37,9 @@ def filled(name="Boxed", **values):
 
     doc, box = boxed(name)
     doc.openTransaction("Fill")
-    lattice = {"CellSize": 10, "StrutRadius": 1, "ShellThickness": 1, "Resolution": 10, **values}
+    lattice = {"CellSize": 10, "StrutRadius": 1, "ShellThickness": 1, **values}
+    if "Deviation" not in values:
+        lattice.setdefault("Resolution", 10)
     obj = make_lattice_infill(doc, box, **lattice)
     doc.recompute()
     doc.commitTransaction()

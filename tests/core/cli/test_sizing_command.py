@@ -17,6 +17,7 @@ from command import run
 from volfrep.cli import sizing
 from volfrep.io.solid import read_triangles
 from volfrep.io.write.stl import write_stl
+from volfrep.jobs.sizing import Goal
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.optimise import Step
 
@@ -252,7 +253,7 @@ def test_a_signal_to_stop_keeps_the_best_design_so_far(
     told = []
     handlers = [signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)]
 
-    def interrupting(quiet: bool, most_steps: int) -> Callable[[int, Step], bool]:
+    def interrupting(quiet: bool, most_steps: int, goal: Goal) -> Callable[[int, Step], bool]:
         def watch(count: int, step: Step) -> bool:
             told.append(step)
             if count == 2:

@@ -65,6 +65,7 @@ OTHERS = {
             "cell": "BCC", "cell_size": 9.0, "strut_radius": 0.9, "shell": 3.0, "resolution": 20,
             "deviation": 0.1, "activation": "inside", "boundary": "whole", "open_faces": (PLANE,),
             "face_skins": (FaceSkin(PLANE, 1.0),), "keep_solid": (KeptFace(PLANE, 1.0),),
+            "skin_field": FIELD,
             "drains": None, "remove_dangling": True, "shortest_stub": 1.0, "remove_below": 0.4,
             "keep_pieces": True, "output": "domain", "fillet": 0.5, "origin": (0, 0, 0),
             "density": 2.0, "size_grading": SizeGrading(LINEAR),

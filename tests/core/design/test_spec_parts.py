@@ -42,6 +42,7 @@ OTHERS = [
         {
             "thickness": 3.0,
             "open_faces": (OpenPlane((0, 0, 0), (0, 0, 1)),),
+            "field": FIELD,
             "face_skins": (FaceSkin(OpenPlane((0, 0, 0), (0, 0, 1)), 1.0),),
             "keep_solid": (KeptFace(OpenPlane((0, 0, 0), (0, 0, 1)), 1.0),),
         },
@@ -113,6 +114,7 @@ OTHERS = [
             "activation": "inside",
             "boundary": "whole",
             "open_faces": (OpenPatch(PATCH),),
+            "skin_field": FIELD,
             "face_skins": (FaceSkin(OpenPatch(PATCH), 1.0),),
             "keep_solid": (KeptFace(OpenPatch(PATCH), 1.0),),
             "drains": None,

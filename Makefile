@@ -148,9 +148,10 @@ test-release: setup ## what users get, made and tried: archive, wheel in every P
 	@$(PYTHON) tools/test_wheel.py build/release
 	@$(MAKE) --no-print-directory site
 
-site: ## the documentation as a site, in build/site; a warning is an error
+site: setup ## the documentation as a site, in build/site: its examples are run; a warning is an error
 	@[ -x .cache/site/bin/mkdocs ] || { python3 -m venv .cache/site && \
 		.cache/site/bin/pip install --quiet --disable-pip-version-check -r tools/requirements-site.txt; }
+	@$(PYTHON) tools/page_examples.py
 	@NO_MKDOCS_2_WARNING=1 .cache/site/bin/python tools/site.py
 
 bench: setup ## the paper's evaluation beside it and other tools, into docs/benchmarks.md and README (30 min)

@@ -27,6 +27,8 @@ TOP = {
     "SECURITY.md": "security.md",
 }
 ICONS = "freecad_volfrep/resources/icons"
+#: The table behind docs/validation.md, which it links to.
+SPECIMENS = "tools/validation/specimens.toml"
 
 
 def public_names() -> list[str]:
@@ -57,6 +59,7 @@ def gather() -> None:
     shutil.copytree(ROOT / "docs", PAGES, ignore=shutil.ignore_patterns("upstream", "gallery"))
     (PAGES / "commands" / "README.md").rename(PAGES / "commands" / "index.md")
     shutil.copytree(ROOT / ICONS, PAGES / "images" / "icons")
+    shutil.copy(ROOT / SPECIMENS, PAGES)
     for source, name in TOP.items():
         text = (ROOT / source).read_text("utf-8")
         text = re.sub(r"\]\(docs/decisions\)", "](decisions/01-octants.md)", text)
@@ -74,6 +77,12 @@ def gather() -> None:
             text = text.replace(f"]({up}../{source})", f"]({up}{name})")
         text = text.replace("commands/README.md", "commands/index.md")
         text = text.replace("](gallery)", "](gallery.md)")
+        text = re.sub(
+            r"\]\(gallery/(\w+)\.py\)",
+            lambda script: f"](gallery.md#{script[1].replace('_', '-')})",
+            text,
+        )
+        text = text.replace(f"](../{SPECIMENS})", f"]({Path(SPECIMENS).name})")
         if page.parent.name == "commands":
             text = text.replace("](README.md", "](index.md")
         page.write_text(text, "utf-8")

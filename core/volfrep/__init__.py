@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         fill,
         homogenise,
         mesh_network,
+        orient,
         size,
         slice_layers,
         slicer_infill,

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 from pathlib import Path
 from types import SimpleNamespace
@@ -139,6 +140,21 @@ def test_the_catalogue_comes_first() -> None:
     known = volfrep.properties(volfrep.LatticeSpec(cell="BCC").unit_cell(), 10, 1)
     assert found.values == known.values
     assert set(volfrep.__all__) <= set(dir(volfrep))
+
+
+def test_an_editor_knows_every_name_that_the_package_promises() -> None:
+    from volfrep import api
+
+    assert all(hasattr(api, name) for name in api.__all__)
+    tree = ast.parse(Path(volfrep.__file__).read_text("utf-8"))
+    checked = next(node for node in tree.body if isinstance(node, ast.If))
+    names = {
+        alias.asname or alias.name
+        for node in checked.body
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    }
+    assert names >= {name for name in volfrep.__all__ if name != "__version__"}
 
 
 def test_an_editor_knows_the_keywords_of_the_table() -> None:

@@ -18,6 +18,7 @@ from .calls import (
     fill,
     homogenise,
     mesh_network,
+    orient,
     size,
     slice_layers,
     slicer_infill,

@@ -123,8 +123,6 @@ def fill(
     >>> part.report.cells_active
     8
     """
-    from ..design.as_printed import find_printed_table
-    from ..jobs.as_printed import compensated
     from ..jobs.targets import solve_target
     from ..output.sources import FilledPart
 
@@ -134,6 +132,9 @@ def fill(
         solid, wanted = _asked(part, unit, told, spec, dict(parameters), material)
         notes = []
         if compensate is not None:
+            from ..design.as_printed import find_printed_table
+            from ..jobs.as_printed import compensated
+
             table = find_printed_table(compensate)
             up = parameters.get("build_direction", BY_NAME["build_direction"].default)
             wanted, note = compensated(wanted, table, up)
@@ -159,24 +160,17 @@ def _fit(
     executor: Executor | None,
 ) -> tuple[Infill, str]:
     """A filled part whose binary STL keeps within limits, and what that costs."""
-    from ..design.forecast import forecast_fill
-    from ..jobs.file_limits import fit_within
-    from ..jobs.kinds import lattice_kind
     from ..jobs.targets import solve_target
-    from ..output.file_size import written_size
+    from ..output.file_size import filled_triangles, fit_file
     from ..output.form import find_form
     from ..output.sources import FilledPart
 
-    def expect(spec: LatticeSpec) -> float:
-        return forecast_fill(solid, lattice_kind(spec).roughly_solved(solid)).triangles
-
-    def make(spec: LatticeSpec) -> tuple[Infill, int, float]:
+    def make(spec: LatticeSpec) -> FilledPart:
         infill = solve_target(solid, spec, progress=told, cache=cache, executor=executor)
-        made = FilledPart(infill, cache)
-        return infill, made.triangles, written_size(made, find_form("part.stl"))
+        return FilledPart(infill, cache)
 
-    found = fit_within(wanted, limits, expect, make)
-    return found.made, found.note
+    found = fit_file(wanted, limits, find_form("part.stl"), filled_triangles(solid), make)
+    return found.made.infill, found.note
 
 
 def size(

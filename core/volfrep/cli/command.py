@@ -234,24 +234,19 @@ def _fill_within(
     options: FillOptions, solid: Solid, start: float, before: dict[str, float]
 ) -> None:
     """Fill with the finest facets with which the file keeps within its limits."""
-    from ..design.forecast import forecast_fill
-    from ..jobs.kinds import lattice_kind
     from ..jobs.targets import solve_target
+    from ..output.file_size import filled_triangles
     from ..output.sources import FilledPart
     from ..util.cache import StageCache
 
     cache = StageCache()
-
-    def expect(spec: LatticeSpec) -> float:
-        return forecast_fill(solid, lattice_kind(spec).roughly_solved(solid)).triangles
-
     with drawn(options.quiet) as progress:
 
         def make(spec: LatticeSpec) -> FilledPart:
             made = solve_target(solid, spec, progress=progress, cache=cache)
             return FilledPart(made, progress=progress)
 
-        _make_within(options, expect, make, start, before)
+        _make_within(options, filled_triangles(solid), make, start, before)
 
 
 def _make_within(
@@ -270,15 +265,9 @@ def _make_within(
         start: as of `_make`.
         before: as of `_make`.
     """
-    from ..jobs.file_limits import fit_within
-    from ..output.file_size import written_size
+    from ..output.file_size import fit_file
 
-    def tried(spec: LatticeSpec) -> tuple[FilledPart | Free, int, float]:
-        made = make(spec)
-        size = written_size(made, options.form) if options.limits.megabytes else 0.0
-        return made, made.triangles, size
-
-    found = fit_within(options.spec, options.limits, expect, tried)
+    found = fit_file(options.spec, options.limits, options.form, expect, make)
     if found.note:
         print_warnings([found.note])
     _make(found.made, options, start, before)

@@ -1,13 +1,23 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How large a mesh's file is, found by writing it where nobody sees it."""
+"""How large a mesh's file is, found by writing it where nobody sees it, and files within limits."""
 
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
+from ..design.file_limits import FileLimits
+from ..design.forecast import forecast_fill
+from ..design.spec import LatticeSpec
+from ..jobs.file_limits import Fitted, fit_within
+from ..jobs.kinds import lattice_kind
+from ..mesh.triangle_mesh import TriangleMesh
 from .form import Form
 from .writer import Settings, Source, writer_of
+
+S = TypeVar("S", bound=Source)
 
 
 def written_size(source: Source, form: Form) -> float:
@@ -22,3 +32,40 @@ def written_size(source: Source, form: Form) -> float:
         path = Path(folder) / f"part{form.suffixes[0]}"
         writer_of(form).write(source, path, Settings())
         return path.stat().st_size / 1e6
+
+
+def fit_file(
+    spec: LatticeSpec,
+    limits: FileLimits,
+    form: Form,
+    expect: Callable[[LatticeSpec], float],
+    make: Callable[[LatticeSpec], S],
+) -> Fitted[S]:
+    """What has the finest facets with which its file keeps within limits.
+
+    Args:
+        spec: what is wanted.
+        limits: of the file.
+        form: of it.
+        expect: about how many triangles a specification has, such as `filled_triangles`.
+        make: makes one.
+
+    Raises:
+        VolfrepError: as of `fit_within`.
+    """
+
+    def tried(spec: LatticeSpec) -> tuple[S, int, float]:
+        made = make(spec)
+        size = written_size(made, form) if limits.megabytes is not None else 0.0
+        return made, made.triangles, size
+
+    return fit_within(spec, limits, expect, tried)
+
+
+def filled_triangles(solid: TriangleMesh) -> Callable[[LatticeSpec], float]:
+    """What tells about how many triangles a solid has that a specification fills."""
+
+    def expect(spec: LatticeSpec) -> float:
+        return forecast_fill(solid, lattice_kind(spec).roughly_solved(solid)).triangles
+
+    return expect

@@ -7,12 +7,9 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
-from ..util.errors import VolfrepError
 from ..util.progress_bar import drawn
 from .files import check_files
 from .parameter_options import add_parameters, specified
@@ -33,7 +30,7 @@ def _coupon(given: argparse.Namespace) -> None:
     from ..jobs.coupons import make_coupons
     from ..mechanics.materials import find_material
     from ..output.meshes import write_mesh
-    from ..util.files import replacing
+    from ..util.files import make_folder, replacing, write_json
 
     found = specified(given)
     check_files(given, found.files, folder=True)
@@ -46,11 +43,7 @@ def _coupon(given: argparse.Namespace) -> None:
             found.spec, kinds, cells=given.cells, first=given.number, diameters=given.diameters,
             inclinations=given.inclinations, progress=progress,
         )  # fmt: skip
-    folder = Path(given.output)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise VolfrepError(f"Cannot make the folder '{folder}': {error.strerror}.") from error
+    folder = make_folder(given.output)
     rows = []
     for one in made:
         path = folder / f"{one.number}_{one.kind}.{given.format}"
@@ -66,6 +59,4 @@ def _coupon(given: argparse.Namespace) -> None:
         if one.struts:
             with replacing(folder / f"{one.number}_{one.kind}.csv") as file:
                 file.write(one.table().encode())
-    with replacing(folder / "coupons.json") as file:
-        kept = {"lattice": found.spec.as_dict(), "coupons": rows}
-        file.write(json.dumps(kept, indent=2).encode() + b"\n")
+    write_json(folder / "coupons.json", {"lattice": found.spec.as_dict(), "coupons": rows})

@@ -7,7 +7,6 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Callable
 from typing import Any
 
@@ -28,7 +27,7 @@ def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], 
 
 def _find(given: argparse.Namespace) -> None:
     from ..jobs.figures.find import direction_of, error_along, find_lattices
-    from ..util.files import replacing
+    from ..util.files import write_json
 
     check_files(given)
     if given.most < 1:
@@ -45,8 +44,7 @@ def _find(given: argparse.Namespace) -> None:
             "No cell of the library has that: ask for another modulus, density or material."
         )
     if given.json is not None:
-        with replacing(given.json) as file:
-            file.write(json.dumps([one.as_dict() for one in found], indent=2).encode() + b"\n")
+        write_json(given.json, [one.as_dict() for one in found])
     unit = "of the solid" if given.material is None else "MPa"
     way = direction_of(given.direction)
     heads = f"{'r, mm':>9}{'density':>10}{f'E along {given.direction}, {unit}':>32}"

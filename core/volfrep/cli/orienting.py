@@ -7,7 +7,6 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -32,7 +31,7 @@ def _orient(options: argparse.Namespace) -> None:
     from ..io.solid import read_solid
     from ..output.meshes import mesh_form, write_mesh
     from ..reports.orientation import inclination_of, orient
-    from ..util.files import replacing
+    from ..util.files import write_json
 
     check_files(options)
     if options.output is not None:
@@ -48,7 +47,6 @@ def _orient(options: argparse.Namespace) -> None:
     if options.output is not None:
         write_mesh(found.turned(min(options.take, len(found.best)) - 1), options.output)
     if options.report is not None:
-        with replacing(options.report) as file:
-            file.write(json.dumps(found.as_dict(), indent=2).encode() + b"\n")
+        write_json(options.report, found.as_dict())
     if not options.quiet:
         print_rows(*found.rows())

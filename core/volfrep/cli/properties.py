@@ -7,7 +7,6 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -103,7 +102,7 @@ def _expected(seconds: float) -> None:
 
 def _properties(options: argparse.Namespace) -> None:
     from ..jobs.figures.properties import lattice_properties
-    from ..util.files import replacing
+    from ..util.files import write_json
 
     check_files(options)
     found = lattice_properties(
@@ -123,6 +122,5 @@ def _properties(options: argparse.Namespace) -> None:
         told=_expected,
     )
     if options.json is not None:
-        with replacing(options.json) as file:
-            file.write(json.dumps(found.as_dict(), indent=2).encode() + b"\n")
+        write_json(options.json, found.as_dict())
     print_rows(*found.rows())

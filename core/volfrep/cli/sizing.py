@@ -7,7 +7,6 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-import json
 import signal
 import sys
 import threading
@@ -56,7 +55,7 @@ def _size(given: argparse.Namespace) -> int | None:
     from ..output.writer import Settings, writer_of
     from ..reports.sizing_report import sizing_rows
     from ..util.cache import StageCache
-    from ..util.files import replacing
+    from ..util.files import write_json
 
     spec = options.spec
     solid = read_part(options.part, options.unit, spec.cell_size)
@@ -90,9 +89,7 @@ def _size(given: argparse.Namespace) -> int | None:
         write_radii(made, options.radii)
         _write_specification(options, made)
     if options.report is not None:
-        figures = {"sizing": made.report, "part": report.as_dict()}
-        with replacing(options.report) as file:
-            file.write(json.dumps(figures, indent=2).encode() + b"\n")
+        write_json(options.report, {"sizing": made.report, "part": report.as_dict()})
     if options.plot is not None:
         from ..reports.sizing_plot import write_sizing_plot
 

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,13 +15,12 @@ if TYPE_CHECKING:
 
 def write_report(report: Report, path: str, printing: PrintReport | None = None) -> None:
     """Write the figures as JSON."""
-    from ..util.files import replacing
+    from ..util.files import write_json
 
     figures = report.as_dict()
     if printing is not None:
         figures["print_report"] = printing.as_dict()
-    with replacing(path) as file:
-        file.write(json.dumps(figures, indent=2).encode() + b"\n")
+    write_json(path, figures)
 
 
 def print_summary(

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import secrets
 import shutil
@@ -12,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from .errors import VolfrepError
 
@@ -160,6 +161,30 @@ def replacing(path: str | os.PathLike[str], size: int = 0) -> Iterator[BinaryIO]
             part.unlink(missing_ok=True)
     except OSError as error:
         raise not_written(target, error) from error
+
+
+def make_folder(path: str | os.PathLike[str]) -> Path:
+    """A folder for files, made where it is not there.
+
+    Raises:
+        VolfrepError: it cannot be made.
+    """
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise VolfrepError(f"Cannot make the folder '{folder}': {error.strerror}.") from error
+    return folder
+
+
+def write_json(path: str | os.PathLike[str], values: Any) -> None:
+    """Write plain values as an indented JSON text; an old file stays if anything goes wrong.
+
+    Raises:
+        VolfrepError: it cannot be written.
+    """
+    with replacing(path) as file:
+        file.write(json.dumps(values, indent=2).encode() + b"\n")
 
 
 def write_at(file: BinaryIO, data: memoryview, place: int) -> None:

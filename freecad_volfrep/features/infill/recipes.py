@@ -20,6 +20,7 @@ from volfrep.design.parameters import BY_NAME, PARAMETERS, Parameter
 from volfrep.design.parameters.table import CUSTOM_CELL
 from volfrep.design.target import read_target
 from volfrep.util.errors import VolfrepError
+from volfrep.util.files import make_folder
 
 from .values import specification_of
 
@@ -61,11 +62,7 @@ def save_recipe(obj: App.DocumentObject, name: str) -> Path:
         raise VolfrepError(f"'{name}' is no name for a recipe: use letters, digits and blanks.")
     spec = specification_of(obj)
     drains = spec.drains and replace(spec.drains, places=())
-    folder = recipe_folder()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise VolfrepError(f"Cannot make the folder '{folder}': {error.strerror}.") from error
+    folder = make_folder(recipe_folder())
     file = folder / f"{name}.toml"
     write_spec(replace(spec, **_NO_PICKED, drains=drains, density=1.0), file)
     return file

@@ -229,13 +229,7 @@ def _with_sized_skin(
     infill, goal = task.infill, task.goal
     spec, limit = infill.spec, goal.limits.stress
 
-    def told(number: int, step: Step) -> bool:
-        try:
-            task.monitor.tick(min((number + 1) / (2.5 * most_steps), 1.0))
-        except Cancelled:
-            return False
-        return watch is None or watch(number, step)
-
+    told = _watched(task, 2.5 * most_steps, watch)
     design: SkinDesign | None = None
     margin, chosen = MARGIN, task
     for _ in range(SKINS):
@@ -259,6 +253,21 @@ def _with_sized_skin(
     return chosen, search
 
 
+def _watched(
+    task: _Task, steps: float, watch: Callable[[int, Step], bool] | None
+) -> Callable[[int, Step], bool]:
+    """What is told of each step of a search of so many, and ends it where the job is cancelled."""
+
+    def told(number: int, step: Step) -> bool:
+        try:
+            task.monitor.tick((number + 1) / steps)
+        except Cancelled:
+            return False  # there is a design: the best so far is kept
+        return watch is None or watch(number, step)
+
+    return told
+
+
 def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | None) -> _Search:
     """The design with all struts, and with those that carry little taken away where that is asked.
 
@@ -266,14 +275,7 @@ def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | N
         Cancelled: by the monitor, before there was a design; afterwards it ends the search.
     """
     goal, problem = task.goal, task.model.problem
-
-    def told(number: int, step: Step) -> bool:
-        try:
-            task.monitor.tick((number + 1) / most_steps / (2 if goal.remove_thin else 1))
-        except Cancelled:
-            return False  # there is a design: the best so far is kept
-        return watch is None or watch(number, step)
-
+    told = _watched(task, most_steps * (2 if goal.remove_thin else 1), watch)
     with task.monitor.stage("sizing", 0.4, 0.95):
         with _named(problem):
             if task.skin is None:

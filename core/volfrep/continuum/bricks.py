@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..mechanics.elements import CORNERS, PARTS, SHEARS, gradients, part_centres
+from ..mechanics.elements import CORNERS, PARTS, gradients, part_centres, strain_matrices
 from ..util.types import Floats, Ints
 
 #: The 21 constants of a stiffness, rows and columns of its upper triangle.
@@ -63,14 +63,7 @@ class Bricks:
 
     def strains(self, points: Floats) -> Floats:
         """(n, 6, 24) strains, Voigt, of the nodes' displacements at points of the unit cube."""
-        slopes = gradients(points) / self.edge
-        matrix = np.zeros((len(points), 6, 8, 3))
-        for axis in range(3):
-            matrix[:, axis, :, axis] = slopes[..., axis]
-        for row, (one, two) in enumerate(SHEARS, 3):
-            matrix[:, row, :, one] = slopes[..., two]
-            matrix[:, row, :, two] = slopes[..., one]
-        return matrix.reshape(len(points), 6, 24)
+        return strain_matrices(points, self.edge)
 
     def matrices(self, shares: Shares, lattice: Floats, solid: Floats) -> Floats:
         """(e, 24, 24) float32 N/mm.

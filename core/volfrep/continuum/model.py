@@ -16,19 +16,18 @@ import numpy as np
 from scipy import ndimage
 
 from ..loads.load_cases import LoadCase
-from ..mechanics.elements import solid_stiffness
+from ..mechanics.elements import solid_stiffness, von_mises
 from ..mechanics.materials import SolidMaterial
 from ..util.errors import VolfrepError
+from ..util.peaks import row_of_most
 from ..util.progress import Monitor
-from ..util.types import Floats, Ints
-from ..voxels.bricks import von_mises
-from ..voxels.loaded import Loaded, VoxelCase
+from ..util.types import Bools, Floats, Ints
+from ..voxels.bricks import POINTS
+from ..voxels.loaded import Loaded, VoxelCase, solve_laid
 from ..voxels.multigrid import Elements, Fine, Multigrid
 from .bricks import Bricks, Shares
 from .cell_law import in_cell
 
-#: Of the volume that is told of, so much may be stressed more.
-PEAKS = 0.001
 #: Elements with less lattice, or less skin, are not told of.
 TOLD = 0.1
 #: Of conjugate gradients for heat.
@@ -111,35 +110,26 @@ def solve_continuum(
         Cancelled: when the monitor says so.
     """
     monitor = monitor or Monitor()
-    laid = [model.loaded.case(case) for case in cases]
+    every = np.ones(len(model.matrices), bool)
 
     def own_matrices(rows: Ints) -> Floats:
         return model.matrices[rows].astype(float)
 
-    states: dict[int, ContinuumState] = {}
-    while len(states) < len(laid):
-        first = next(k for k in range(len(laid)) if k not in states)
-        held = laid[first].held
-        every = np.ones(len(model.matrices), bool)
-        fine = Fine(model.elements, every, np.zeros((24, 24)), own_matrices, ~held)
-        solver = Multigrid(fine, model.size, monitor)
-        for k, case in enumerate(laid):
-            if k not in states and np.array_equal(case.held, held):
-                right = case.loads
-                if case.moved.any():
-                    right = right - fine.full(case.moved)
-                moved, steps = solver.solve(right, tolerance=tolerance)
-                moved = moved + case.moved
-                work = float(np.vdot(moved, fine.full(moved)))
-                states[k] = ContinuumState(case, moved, work, *_stress(model, moved), steps)
-    return [states[k] for k in range(len(laid))]
+    def solver_of(free: Bools) -> Multigrid:
+        fine = Fine(model.elements, every, np.zeros((24, 24)), own_matrices, free)
+        return Multigrid(fine, model.size, monitor)
+
+    def state_of(case: VoxelCase, moved: Floats, forces: Floats, steps: int) -> ContinuumState:
+        work = float(np.vdot(moved, forces))
+        return ContinuumState(case, moved, work, *_stress(model, moved), steps)
+
+    return solve_laid([model.loaded.case(case) for case in cases], solver_of, state_of, tolerance)
 
 
 def _stress(model: ContinuumModel, moved: Floats) -> tuple[Floats, Floats]:
     """(e,) share of yield in the lattice, at most, and (e,) MPa in the skin."""
     own = moved[model.elements.nodes].reshape(-1, 24)
-    points = (np.array(np.meshgrid(*[(-1, 1)] * 3)).reshape(3, -1).T / np.sqrt(3.0) + 1.0) / 2.0
-    strains = model.bricks.strains(np.vstack([[[0.5] * 3], points]))
+    strains = model.bricks.strains(np.vstack([[[0.5] * 3], (POINTS + 1.0) / 2.0]))
     middle = own @ strains[0].T
     stress = (model.lattice @ middle[:, :, None])[:, :, 0]
     frames = np.broadcast_to(model.frames, (len(own), 3, 3))
@@ -167,9 +157,7 @@ def figures_of(model: ContinuumModel, state: ContinuumState) -> dict[str, Any]:
         "name": case.name,
         "displacement_mm": float(size[most]),
         "displacement_at": model.nodes[most].tolist(),
-        "loads": [
-            {"name": name, "moved_mm": (weights @ moved).tolist()} for name, weights in case.places
-        ],
+        "loads": case.moved_by(moved),
         "work_nmm": state.work,
         "steps": state.steps,
     }
@@ -182,9 +170,7 @@ def figures_of(model: ContinuumModel, state: ContinuumState) -> dict[str, Any]:
         result[name] = result[f"{name}_at"] = None
         if there.any() and values[there].any():
             rows = np.flatnonzero(there)
-            order = rows[np.argsort(values[rows])]
-            total = np.cumsum(weights[order])
-            row = order[np.searchsorted(total, (1.0 - PEAKS) * total[-1])]
+            row = rows[row_of_most(values[rows], weights[rows])]
             result[name], result[f"{name}_at"] = float(values[row]), middles[row].tolist()
     return result
 

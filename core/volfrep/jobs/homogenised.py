@@ -7,7 +7,6 @@ turning; the skin lies where it is.
 
 from __future__ import annotations
 
-import json
 import os
 import time
 from collections.abc import Mapping, Sequence
@@ -38,7 +37,7 @@ from ..mechanics.endless import strains_held
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
-from ..util.files import replacing
+from ..util.files import write_json
 from ..util.numbers import number
 from ..util.progress import Monitor, ProgressCallback
 from ..util.types import Floats, Ints
@@ -47,6 +46,7 @@ from ..voxels.multigrid import elements_at
 from ..voxels.shares import VoxelGrid, fill_grid, grid_of
 from .figures.properties import lattice_properties
 from .infill import Infill
+from .solving import moved_rows
 
 #: So many elements, if the user does not say how large they are; where cells are more, one a cell
 #: up to the most.
@@ -107,8 +107,7 @@ class HomogenisedPart:
 
     def write_report(self, path: str | os.PathLike[str]) -> None:
         """Write the figures as JSON."""
-        with replacing(path) as file:
-            file.write(json.dumps(self.report, indent=2).encode() + b"\n")
+        write_json(path, self.report)
 
     def conduct(
         self, temperatures: Sequence[tuple[Any, float]], conductivity: float
@@ -433,9 +432,7 @@ def homogenised_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
                 f"moves {case['displacement_mm']:.4g} mm; work {case['work_nmm'] / 2:.4g} N mm",
             )
         )
-        for load in case["loads"]:
-            moved = ", ".join(f"{value:.4g}" for value in load["moved_mm"])
-            rows.append(("", f"'{load['name']}' moves by ({moved}) mm"))
+        rows += moved_rows(case)
         if case["lattice_use"] is not None:
             at = ", ".join(f"{value:.4g}" for value in case["lattice_use_at"])
             rows.append(("", f"lattice up to {case['lattice_use']:.0%} of its yield, at ({at}) mm"))

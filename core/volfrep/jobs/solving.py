@@ -7,7 +7,6 @@ extrapolated.
 
 from __future__ import annotations
 
-import json
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -20,12 +19,12 @@ from ..io.write.vtu import write_vtu
 from ..loads.load_cases import LoadCases
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
-from ..util.files import replacing
+from ..util.files import write_json
 from ..util.numbers import duration, number
+from ..util.peaks import PEAKS
 from ..util.progress import Monitor, ProgressCallback
 from ..voxels.shares import grid_of
 from ..voxels.solution import (
-    PEAKS,
     VoxelModel,
     VoxelState,
     figures_of,
@@ -118,8 +117,7 @@ class Solved:
 
     def write_report(self, path: str | os.PathLike[str]) -> None:
         """Write the figures as JSON."""
-        with replacing(path) as file:
-            file.write(json.dumps(self.report, indent=2).encode() + b"\n")
+        write_json(path, self.report)
 
 
 def check_result_file(path: str | os.PathLike[str]) -> None:
@@ -298,6 +296,14 @@ def _notes(
     return found
 
 
+def moved_rows(case: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """How far the loads of a case move, as lines for a user."""
+    return [
+        ("", f"'{load['name']}' moves by ({', '.join(f'{x:.4g}' for x in load['moved_mm'])}) mm")
+        for load in case["loads"]
+    ]
+
+
 def solving_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     """The figures as lines for a user."""
     fine = report["voxels"][-1]
@@ -319,9 +325,7 @@ def solving_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
                 f"{limit['compliance_nmm'] / 2:.4g} extrapolated",
             )
         ]
-        for load in case["loads"]:
-            moved = ", ".join(f"{value:.4g}" for value in load["moved_mm"])
-            rows.append(("", f"'{load['name']}' moves by ({moved}) mm"))
+        rows += moved_rows(case)
         stress = case["stress_mpa"]
         parts = [f"nominal stress {stress['all']:.4g} MPa on all but {PEAKS:.1%} of the volume"]
         parts += [

@@ -44,6 +44,14 @@ def solid_stiffness(young: float, poisson: float) -> Floats:
     return stiffness
 
 
+def von_mises(stress: Floats, axis: int = -1) -> Floats:
+    """Von Mises stress of stresses with six components, the three shears last, along an axis."""
+    x, y, z, yz, xz, xy = np.moveaxis(stress, axis, 0)
+    squares = (x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2
+    result: Floats = np.sqrt(0.5 * squares + 3.0 * (yz**2 + xz**2 + xy**2))
+    return result
+
+
 def gradients(points: Floats) -> Floats:
     """(n, 8, 3) gradients of the eight shape functions at (n, 3) points of the unit cube."""
     factor = np.where(CORNERS[None], points[:, None], 1.0 - points[:, None])
@@ -54,9 +62,14 @@ def gradients(points: Floats) -> Floats:
     return result
 
 
-def strain_matrices(points: Floats) -> Floats:
-    """(n, 6, 24) strains, Voigt, of the nodal displacements of an element of edge 1."""
-    slopes = gradients(points)
+def strain_matrices(points: Floats, edge: Floats | float = 1.0) -> Floats:
+    """(n, 6, 24) strains, Voigt, of the nodal displacements at (n, 3) points of the unit cube.
+
+    Args:
+        points: (n, 3) in the element.
+        edge: of it, or (3,) along each axis.
+    """
+    slopes = gradients(points) / edge
     matrix = np.zeros((len(points), 6, 8, 3))
     for axis in range(3):
         matrix[:, axis, :, axis] = slopes[..., axis]

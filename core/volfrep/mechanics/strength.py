@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..util.types import Floats
-from .elements import part_centres, solid_stiffness, strain_matrices
+from .elements import part_centres, solid_stiffness, strain_matrices, von_mises
 from .homogenise import CUBIC_STRAINS, Grid
 from .tensor import compliance
 
@@ -68,10 +68,7 @@ def stresses(grid: Grid, poisson: float) -> Stresses:
         rows = slice(first, first + 20_000)
         strain[rows] = strain_matrices(middle[rows]) @ moved[unknown[rows]]
     stress = solid_stiffness(1.0, poisson) @ (strain + strains)
-    x, y, z, yz, xz, xy = np.moveaxis(stress, 1, 0)
-    mises = np.sqrt(
-        0.5 * ((x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2) + 3.0 * (yz**2 + xz**2 + xy**2)
-    )
+    mises = von_mises(stress, axis=1)
     largest = np.array([_exceeded(column, weight, EXCEPTED) for column in mises.T])
     # What is not carried comes out as a strain without stress.
     row = [STRESSES.index(name) for name in names]

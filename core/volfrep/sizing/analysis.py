@@ -36,7 +36,7 @@ class Limits:
         frequency: the lowest natural one, Hz, with the first case's supports.
         frame_buckling: how many times it may be before struts buckle together.
         skin_stress: von Mises on both sides of a skin that is varied, MPa, on all but
-            `skin_thickness.PEAKS` of its area.
+            `util.peaks.PEAKS` of its area.
     """
 
     stress: float | None = None

@@ -19,14 +19,15 @@ from ..fem.model import Case
 from ..fem.solved_frame import SolidSkin, SolvedFrame, solve_frame
 from ..fem.wedge_mesh import WedgeMesh, beyond_inner, wedge_mesh
 from ..grid.strut_graph import Wireframe
+from ..mechanics.elements import von_mises
 from ..mechanics.frame import Ends
 from ..mechanics.materials import SolidMaterial
+from ..util.peaks import most_but_peaks
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .analysis import Analysis, Limits, Problem
 from .model import SizingModel
 from .skin import SkinModel
-from .skin_thickness import PEAKS, all_but
 from .strut_results import stresses
 from .tapered_beams import Beams, cross_matrix
 
@@ -247,13 +248,10 @@ def skin_stresses(mesh: WedgeMesh, stress: Floats) -> tuple[float, ...]:
     own = mesh.elements[~mesh.is_pad]
     worst = np.zeros((len(own), stress.shape[2]))
     for side in (own[:, :3], own[:, 3:6]):
-        xx, yy, zz, xy, yz, zx = stress[side].mean(axis=1).swapaxes(0, 1)
-        apart = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
-        mises = np.sqrt(0.5 * apart + 3.0 * (xy**2 + yz**2 + zx**2))
-        worst = np.maximum(worst, mises)
+        worst = np.maximum(worst, von_mises(stress[side].mean(axis=1), axis=1))
     one, two, three = mesh.nodes[own[:, 3:6]].swapaxes(0, 1)
     area = np.linalg.norm(np.cross(two - one, three - one), axis=1)
-    return tuple(all_but(row, area, PEAKS) for row in worst.T)
+    return tuple(most_but_peaks(row, area) for row in worst.T)
 
 
 def end_stresses(solved: SolvedFrame, model: BeamMesh, beams: Beams, radii: Floats) -> Floats:

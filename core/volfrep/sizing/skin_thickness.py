@@ -20,6 +20,7 @@ import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
 
+from ..util.peaks import most_but_peaks
 from ..util.types import Floats, Ints
 from .node_radii import NodeRadii
 from .shell_elements import UnitBlocks
@@ -32,8 +33,6 @@ _REACH = 2.0
 _BESIDE = 3
 #: Shells with this part of the largest share in a value are to hold the stress with it.
 _OWN = 0.7
-#: Peaks of stress on so much of the skin's area, as in a corner of a support, do not count.
-PEAKS = 0.001
 
 
 def control_points(places: Floats, apart: float) -> Floats:
@@ -151,7 +150,7 @@ class SkinThickness:
 
     def peak(self, stress: Floats) -> float:
         """The stress (t, k) of the worst case, on all but a little of the skin's area."""
-        return max(all_but(row, self.skin.shells.area, PEAKS) for row in stress.T)
+        return max(most_but_peaks(row, self.skin.shells.area) for row in stress.T)
 
     def nearest(self, places: Floats) -> Ints:
         """(k, c) the control points nearest to places (k, 3)."""
@@ -198,10 +197,3 @@ def with_skin(shape: NodeRadii, skin: SkinThickness) -> RadiiAndSkin:
     ends = shape.ends.tocsr().copy()
     ends.resize(rows, columns + len(skin.points))
     return RadiiAndSkin(ends, shape.filled, skin)
-
-
-def all_but(values: Floats, weights: Floats, share: float) -> float:
-    """The value that no more than a share of the weights goes beyond."""
-    order: Ints = np.argsort(values)
-    total = np.cumsum(weights[order])
-    return float(values[order[np.searchsorted(total, (1.0 - share) * total[-1])]])

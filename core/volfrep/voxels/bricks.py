@@ -120,11 +120,3 @@ def _strain(point: Floats, edge: Floats) -> Floats:
         strain[row, :, one] = slopes[:, two]
         strain[row, :, two] = slopes[:, one]
     return strain.reshape(6, 33)
-
-
-def von_mises(stress: Floats) -> Floats:
-    """(...) MPa, of (..., 6) stresses, Voigt."""
-    x, y, z, yz, xz, xy = np.moveaxis(stress, -1, 0)
-    squares = (x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2
-    result: Floats = np.sqrt(0.5 * squares + 3.0 * (yz**2 + xz**2 + xy**2))
-    return result

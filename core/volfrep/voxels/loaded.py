@@ -9,8 +9,9 @@ many lie outside as inside, so that a support is neither deeper nor shallower th
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -24,8 +25,10 @@ from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
-from .multigrid import Elements
+from .multigrid import Elements, Multigrid
 from .shares import VoxelGrid
+
+S = TypeVar("S")
 
 #: Voxels that are looked at about a place that is loaded.
 NEAR = 8
@@ -57,6 +60,48 @@ class VoxelCase:
     loads: Floats
     places: tuple[tuple[str, Floats], ...]
     asked: Floats
+
+    def moved_by(self, moved: Floats) -> list[dict[str, Any]]:
+        """How far each load moves of displacements (n, 3), mm, as plain JSON values."""
+        return [
+            {"name": name, "moved_mm": (weights @ moved).tolist()} for name, weights in self.places
+        ]
+
+
+def solve_laid(
+    cases: Sequence[VoxelCase],
+    solver_of: Callable[[Bools], Multigrid],
+    state_of: Callable[[VoxelCase, Floats, Floats, int], S],
+    tolerance: float,
+) -> list[S]:
+    """Solve load cases: those with equal supports with one solver.
+
+    Args:
+        cases: on the nodes.
+        solver_of: the equations' solver where (n, 3) are free.
+        state_of: what a case is told by: itself, its (n, 3) displacements, mm, the (n, 3) forces
+            that hold these, N, and the steps that they took.
+        tolerance: of the forces that are left, over the loads.
+
+    Raises:
+        VolfrepError: it does not converge.
+        Cancelled: when the solver's monitor says so.
+    """
+    states: dict[int, S] = {}
+    for first, like in enumerate(cases):
+        if first in states:
+            continue
+        solver = solver_of(~like.held)
+        for k, case in enumerate(cases):
+            if k in states or not np.array_equal(case.held, like.held):
+                continue
+            loads = case.loads
+            if case.moved.any():
+                loads = loads - solver.fine.full(case.moved)
+            moved, steps = solver.solve(loads, tolerance=tolerance)
+            moved = moved + case.moved
+            states[k] = state_of(case, moved, solver.fine.full(moved), steps)
+    return [states[k] for k in range(len(cases))]
 
 
 def surface_body(mesh: TriangleMesh, longest: float) -> Body:

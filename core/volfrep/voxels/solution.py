@@ -11,13 +11,15 @@ import numpy as np
 from scipy import ndimage
 
 from ..loads.load_cases import LoadCase
+from ..mechanics.elements import von_mises
 from ..mechanics.materials import SolidMaterial
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
+from ..util.peaks import most_but_peaks
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
-from .bricks import Brick, CutBricks, brick, von_mises
-from .loaded import Loaded, VoxelCase, resultant, surface_body
+from .bricks import Brick, CutBricks, brick
+from .loaded import Loaded, VoxelCase, resultant, solve_laid, surface_body
 from .multigrid import AT_ONCE, Elements, Fine, Multigrid, elements_at
 from .shares import VoxelGrid, voxel_grid
 
@@ -25,8 +27,6 @@ from .shares import VoxelGrid, voxel_grid
 LEAST = 0.01
 #: Stress is told of voxels at least so full.
 TOLD = 0.5
-#: Peaks of stress on so much of the volume are not told, but the largest is.
-PEAKS = 0.001
 #: A place is thick where so many voxels lie between it and its surfaces, or nearly.
 DEEP = 2.0
 #: Voxels that count as the outside, from it inwards.
@@ -145,31 +145,19 @@ def solve_cases(
         Cancelled: when the monitor says so.
     """
     monitor = monitor or Monitor()
-    laid = [model.loaded.case(case) for case in cases]
-    states: dict[int, VoxelState] = {}
-    while len(states) < len(laid):
-        first = next(k for k in range(len(laid)) if k not in states)
-        held = laid[first].held
+
+    def solver_of(free: Bools) -> Multigrid:
         fine = Fine(
             model.elements, model.shares < 1.0, model.brick.stiffness,
-            lambda rows: model.cut.stiffness(model.parts[rows]), ~held,
+            lambda rows: model.cut.stiffness(model.parts[rows]), free,
         )  # fmt: skip
-        solver = Multigrid(fine, model.grid.shares.shape, monitor)
-        for k, case in enumerate(laid):
-            if k not in states and np.array_equal(case.held, held):
-                states[k] = _solved(model, solver, case, tolerance)
-    return [states[k] for k in range(len(laid))]
+        return Multigrid(fine, model.grid.shares.shape, monitor)
 
+    def state_of(case: VoxelCase, moved: Floats, forces: Floats, steps: int) -> VoxelState:
+        reactions = np.where(case.held, forces - case.loads, 0.0)
+        return VoxelState(case, moved, stresses(model, moved), reactions, steps)
 
-def _solved(model: VoxelModel, solver: Multigrid, case: VoxelCase, tolerance: float) -> VoxelState:
-    loads = case.loads
-    if case.moved.any():
-        loads = loads - solver.fine.full(case.moved)
-    moved, steps = solver.solve(loads, tolerance=tolerance)
-    moved = moved + case.moved
-    forces = solver.fine.full(moved) - case.loads
-    reactions = np.where(case.held, forces, 0.0)
-    return VoxelState(case, moved, stresses(model, moved), reactions, steps)
+    return solve_laid([model.loaded.case(case) for case in cases], solver_of, state_of, tolerance)
 
 
 def stresses(model: VoxelModel, moved: Floats) -> Floats:
@@ -221,12 +209,11 @@ def figures_of(model: VoxelModel, state: VoxelState) -> dict[str, Any]:
         "name": case.name,
         "displacement_mm": float(size[most]),
         "displacement_at": model.nodes[most].tolist(),
-        "loads": [
-            {"name": name, "moved_mm": (weights @ moved).tolist()} for name, weights in case.places
-        ],
+        "loads": case.moved_by(moved),
         "compliance_nmm": float(np.vdot(case.loads, moved)),
         "stress_mpa": {
-            name: most_of(state.stress[at], model.shares[at]) for name, at in places.items()
+            name: most_but_peaks(state.stress[at], model.shares[at]) if at.any() else None
+            for name, at in places.items()
         },
         "largest_stress_mpa": float(state.stress[worst]),
         "largest_stress_at": ((model.elements.place[worst] + 0.5) * edge + low).tolist(),
@@ -235,15 +222,6 @@ def figures_of(model: VoxelModel, state: VoxelState) -> dict[str, Any]:
         "imbalance": _imbalance(model, case, applied, back),
         "steps": state.steps,
     }
-
-
-def most_of(stress: Floats, weights: Floats) -> float | None:
-    """The stress that no more than `PEAKS` of the volume goes beyond; None of nothing."""
-    if not len(stress):
-        return None
-    order = np.argsort(stress)
-    total = np.cumsum(weights[order])
-    return float(stress[order[np.searchsorted(total, (1.0 - PEAKS) * total[-1])]])
 
 
 def _imbalance(model: VoxelModel, case: VoxelCase, applied: Floats, back: Floats) -> float:

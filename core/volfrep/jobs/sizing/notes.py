@@ -11,7 +11,7 @@ from ...design.spec import LatticeSpec
 from ...fem.beam_mesh import MEASURED_TO
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel
-from ...sizing.skin_thickness import PEAKS
+from ...util.peaks import PEAKS
 from ...util.types import Floats
 from ..infill import Infill
 

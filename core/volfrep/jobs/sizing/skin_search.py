@@ -23,11 +23,12 @@ from ...mesh.triangle_mesh import TriangleMesh
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel, with_sized_skin
 from ...sizing.optimise import Sized, Step, lightest, stiffest, uniform
-from ...sizing.skin_thickness import PEAKS, all_but, shares_of
+from ...sizing.skin_thickness import shares_of
 from ...spatial.proximity import closest_points
 from ...util.cache import StageCache
 from ...util.errors import VolfrepError
 from ...util.files import replacing
+from ...util.peaks import most_but_peaks
 from ...util.progress import Monitor
 from ...util.types import Floats
 from ..infill import Infill
@@ -223,7 +224,7 @@ def skin_peaks(model: SizingModel, analysis: Analysis) -> list[float]:
     skin = model.skin
     assert skin is not None
     felt = skin.stresses(analysis.displacements[model.frame_nodes :])
-    return [all_but(row, skin.shells.area, PEAKS) for row in felt.T]
+    return [most_but_peaks(row, skin.shells.area) for row in felt.T]
 
 
 def thickness_there(model: SizingModel, domain: TriangleMesh) -> dict[str, Any]:

@@ -212,6 +212,9 @@ def section(obj):
     click(toolbar_button("Section View"))
     settle()
     check("a second call takes its place", planes(obj) == 1, planes(obj))
+    kept = dock().findChild(QtGui.QComboBox, "Axis").currentText()
+    check("along the axis that was left", kept == "X", kept)
+    dock().findChild(QtGui.QDoubleSpinBox, "Offset").setValue(12.0)
     dock().close()
     settle()
     check("closing removes it", planes(obj) == 0 and dock() is None)
@@ -219,6 +222,8 @@ def section(obj):
     check("and so is the mesh", obj.Mesh.CountFacets == facets)
     click(toolbar_button("Section View"))
     settle()
+    kept = dock().findChild(QtGui.QDoubleSpinBox, "Offset").value()
+    check("the next one begins where it was left", abs(kept - 12.0) < 1e-6, kept)
     doc.removeObject(obj.Name)
     settle()
     check("it closes with its object", dock() is None)
@@ -256,6 +261,16 @@ def numbers_of(node):
     search.setInterest(coin.SoSearchAction.ALL)
     search.apply(node)
     return search.getPaths().getLength() - 1
+
+
+def bar_length(image):
+    """Of the scale bar in a saved picture, mm, by the view that it is of."""
+    rows = range(int(0.9 * image.height()), int(0.96 * image.height()))
+    black = [[image.pixelColor(x, y).lightness() < 40 for x in range(image.width() // 4)]
+             for y in rows]  # fmt: skip
+    view = Gui.activeDocument().activeView()
+    a, b = (np.array(view.getPoint(x, 10)) for x in (0, 1000))
+    return float(max(map(sum, black)) * np.linalg.norm(b - a) / 1000)
 
 
 def colourful(name):
@@ -333,6 +348,7 @@ def colours(obj):
     dark = [image.pixelColor(x, y).lightness() < 60 for x in range(0, image.width() // 4, 2)
             for y in range(image.height() // 4, image.height() * 3 // 4, 2)]  # fmt: skip
     check("with letters in black", sum(dark) > 20, sum(dark))
+    check("a scale bar is as long as it says", 9.0 < bar_length(image) < 11.0, bar_length(image))
     check("of a constant the legend tells one number", [numbers_of(legend("A", *ends)) for ends in
           ((0.0, 2.0), (1.0, 1.0))] == [5, 1])  # fmt: skip
     dock.close()

@@ -33,6 +33,8 @@ INK = "VolfrepInk"
 #: A background is light from this on, of 1.
 LIGHT = 0.5
 LINE_WIDTH = 3
+#: Of the scale bar, in shares of the view: where it is, its longest, the height of its ends.
+BAR_LEFT, BAR_BOTTOM, BAR_LONGEST, BAR_ENDS = 0.03, 0.06, 0.2, 0.008
 
 
 def colours_of(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.float32]:
@@ -95,10 +97,6 @@ def legend(title: str, low: float, high: float) -> Any:
     """A colour bar with its values at the left of the view, whatever the camera does."""
     from pivy import coin
 
-    camera = coin.SoOrthographicCamera()
-    camera.viewportMapping = coin.SoCamera.LEAVE_ALONE
-    camera.position, camera.height = (0.5, 0.5, 1.0), 1.0
-    camera.nearDistance, camera.farDistance = 0.5, 2.0
     colours = COLOURS if high > low else COLOURS[[0, 0]]
     steps = len(colours)
     y = BOTTOM + HEIGHT * np.linspace(0.0, 1.0, steps)
@@ -115,7 +113,7 @@ def legend(title: str, low: float, high: float) -> Any:
     strip.numVertices.setValue(2 * steps)
     bar = drawing.separate(binding, look, coordinates, strip)
     root = coin.SoAnnotation()
-    for part in (drawing.unpickable(), camera, drawing.flat_light(), bar):
+    for part in (drawing.unpickable(), _flat_camera(), drawing.flat_light(), bar):
         root.addChild(part)
     # Of a constant there is one number to tell.
     for share in np.linspace(0.0, 1.0, TICKS) if high > low else (0.5,):
@@ -126,9 +124,15 @@ def legend(title: str, low: float, high: float) -> Any:
 
 
 def save_picture(view: Any, path: str) -> None:
-    """Save what a 3D view shows as a picture on white, with the legend's letters in black."""
+    """Save what a 3D view shows as a picture on white, with letters in black and a scale bar.
+
+    In perspective there is no one scale, and no bar.
+    """
     from pivy import coin
 
+    scene, bar = view.getSceneGraph(), _scale_bar(view)
+    if bar is not None:
+        scene.addChild(bar)
     search = coin.SoSearchAction()
     search.setName(INK)
     search.setInterest(coin.SoSearchAction.ALL)
@@ -142,6 +146,52 @@ def save_picture(view: Any, path: str) -> None:
     finally:
         for ink in inks:
             ink.rgb = _ink()
+        if bar is not None:
+            scene.removeChild(bar)
+
+
+def _scale_bar(view: Any) -> Any:
+    """A line of a round length in mm, which it tells; None in perspective."""
+    from pivy import coin
+
+    camera = view.getCameraNode()
+    if not camera.isOfType(coin.SoOrthographicCamera.getClassTypeId()):
+        return None
+    wide, high = view.getSize()
+    # Coin fits the camera's height into the shorter side.
+    across = camera.height.getValue() * wide / min(wide, high)
+    longest = BAR_LONGEST * across
+    decade = 10.0 ** np.floor(np.log10(longest))
+    length = decade * max(step for step in (1.0, 2.0, 5.0) if step * decade <= longest)
+    x, y = (BAR_LEFT, BAR_LEFT + length / across), BAR_BOTTOM
+    ends = (y - BAR_ENDS, y + BAR_ENDS)
+    points = [
+        (x[0], ends[0], 0.0), (x[0], ends[1], 0.0), (x[0], y, 0.0),
+        (x[1], y, 0.0), (x[1], ends[1], 0.0), (x[1], ends[0], 0.0),
+    ]  # fmt: skip
+    coordinates, line, style = coin.SoCoordinate3(), coin.SoLineSet(), coin.SoDrawStyle()
+    coordinates.point.setValues(0, len(points), points)
+    line.numVertices.setValue(len(points))
+    style.lineWidth = LINE_WIDTH
+    ink = coin.SoBaseColor()
+    ink.setName(INK)
+    root = coin.SoAnnotation()
+    letters = _text(f"{figure(length)} mm", (x[0], y + 2.0 * BAR_ENDS, 0.0))
+    drawn = drawing.separate(ink, style, coordinates, line)
+    for part in (drawing.unpickable(), _flat_camera(), drawing.flat_light(), drawn, letters):
+        root.addChild(part)
+    return root
+
+
+def _flat_camera() -> Any:
+    """What draws in shares of the view, whatever its own camera does."""
+    from pivy import coin
+
+    camera = coin.SoOrthographicCamera()
+    camera.viewportMapping = coin.SoCamera.LEAVE_ALONE
+    camera.position, camera.height = (0.5, 0.5, 1.0), 1.0
+    camera.nearDistance, camera.farDistance = 0.5, 2.0
+    return camera
 
 
 def _text(text: str, place: tuple[float, float, float]) -> Any:

@@ -29,6 +29,8 @@ AXES = "XYZ"
 STEPS = 1000
 #: FreeCAD's own modes in which a mesh's faces are drawn.
 OPAQUE_MODES = ("Shaded", "Flat Lines")
+#: Where planes were left, by document and object: axis, offset in mm, the other side.
+_left: dict[tuple[str, str], tuple[int, float, bool]] = {}
 
 
 class Section:
@@ -127,7 +129,15 @@ class SectionDock(ObjectDock):
         self._slider.valueChanged.connect(lambda step: self._offset.setValue(self._at(step)))
         self._offset.valueChanged.connect(lambda _: self._cut())
         self._flip.toggled.connect(lambda _: self._cut())
-        self.centre()
+        self._key = obj.Document.Uid, obj.Name
+        left = _left.get(self._key)
+        if left is None:
+            self.centre()
+        else:
+            self._axis.setCurrentIndex(left[0])
+            self.centre()
+            self._flip.setChecked(left[2])
+            self._offset.setValue(left[1])
 
     def show_cut_faces(self) -> None:
         """Fill what is cut through in the present display mode."""
@@ -151,13 +161,16 @@ class SectionDock(ObjectDock):
             self.show_cut_faces()
 
     def take_away(self) -> None:
-        """Show all of the infill again."""
+        """Show all of the infill again; the next section begins where this one was."""
         if self._section is not None:
+            left = self._axis.currentIndex(), self._offset.value(), self._flip.isChecked()
+            _left[self._key] = left
             self._section.remove()
             self._section = None
 
     def forget(self, document_too: bool) -> None:
         """The plane is gone with the infill's scene."""
+        _left.pop(self._key, None)
         self._section = None
 
     def _lay_out(self) -> None:

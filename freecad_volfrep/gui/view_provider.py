@@ -24,8 +24,8 @@ from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
 from .colours.colouring import Colouring, add_properties
-from .draw import drawing
 from .jobs.in_steps import do_in_steps, drop_steps
+from .jobs.stale_bar import refresh_bar
 from .qt import QtCore, QtGui
 from .study.study_panel import open_study
 from .undo import complete_steps
@@ -60,7 +60,6 @@ class LatticeInfillView:
 
     _is_older = False
     _is_stale = False
-    _sign: Any = None
 
     def __init__(self, view: Any) -> None:
         view.Proxy = self
@@ -163,6 +162,11 @@ class LatticeInfillView:
         """What colours it by a quantity."""
         return self._colouring
 
+    @property
+    def is_seen_stale(self) -> bool:
+        """Whether a mesh is shown that is not of the present values."""
+        return self._is_stale and bool(self.object.ViewObject.Visibility)
+
     def getIcon(self) -> str:  # noqa: N802
         """Path of the tree's icon: another one for a mesh that is out of date."""
         return str(ICONS / ("lattice_infill_stale.svg" if self._is_stale else "lattice_infill.svg"))
@@ -195,6 +199,7 @@ class LatticeInfillView:
     def onDelete(self, view: Any, names: Any) -> bool:  # noqa: N802
         """Let the infill go, and show its solid again, unless another infill stands for it."""
         self._colouring.end()
+        refresh_bar()
         obj, base = view.Object, view.Object.Base
         others = [other for other in infills_of(obj.Document) if other != obj]
         if base is not None and not any(o.Base == base and o.Visibility for o in others):
@@ -278,18 +283,10 @@ class LatticeInfillView:
                 obj.touch()
 
     def _show_state(self) -> None:
-        """A sign in the tree and at the mesh while that is not of the present values."""
+        """A sign in the tree and over the view while the mesh is not of the present values."""
         obj, was_stale = self.object, self._is_stale
         self._is_stale = bool(obj.Fingerprint) and obj.Status != UP_TO_DATE
-        root, is_shown = obj.ViewObject.RootNode, self._is_stale and obj.ViewObject.Visibility
-        if is_shown and self._sign is None:
-            box = obj.Mesh.BoundBox
-            at = (box.Center.x, box.Center.y, box.ZMax)
-            self._sign = drawing.sign(translate("VolfrepFreshness", "Out of date"), at)
-            root.addChild(self._sign)
-        elif not is_shown and self._sign is not None:
-            root.removeChild(self._sign)
-            self._sign = None
+        refresh_bar()
         if was_stale != self._is_stale:
             obj.ViewObject.signalChangeIcon()
 

@@ -94,6 +94,36 @@ def a_stale_mesh_is_asked_about():
         window.close()
 
 
+def stale_bar():
+    """The bar over the view that says what is out of date, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QFrame, "VolfrepStaleBar")
+    return next((bar for bar in found if bar.isVisible()), None)
+
+
+def one_click_updates_what_is_stale():
+    """The view says that a mesh is out of date, with a button that makes it anew."""
+    doc, _, obj = filled("Outdated")
+    check("nothing is said of a fresh mesh", stale_bar() is None)
+    before = obj.Triangles
+    obj.AutoUpdate, obj.StrutRadius = False, 1.4
+    doc.recompute()
+    check("the view says it", wait_until(lambda: stale_bar() is not None))
+    said = stale_bar().findChild(QtGui.QLabel).text()
+    check("of which lattice", said == f"{obj.Label} is out of date", said)
+    picture("stale_bar")
+    obj.Visibility = False
+    settle()
+    check("not of one that is hidden", stale_bar() is None)
+    obj.Visibility = True
+    settle()
+    click(stale_bar().findChild(QtGui.QPushButton, "Update"))
+    wait_until(lambda: obj.Status == "Up to date")
+    settle()
+    check("one click makes the mesh", obj.Triangles != before, obj.Triangles)
+    check("and the bar goes", stale_bar() is None)
+    picture("stale_bar_gone")
+
+
 def a_mesh_that_comes_is_waited_for():
     """A command that needs the mesh of values that are being computed comes after them, unasked."""
     _, _, obj = filled("Coming")
@@ -267,6 +297,7 @@ run_checks(
     {
         its_looks_outlive_undo_and_a_file: None,
         a_stale_mesh_is_asked_about: None,
+        one_click_updates_what_is_stale: None,
         a_mesh_that_comes_is_waited_for: None,
         an_undone_mesh_keeps_the_colour_of_its_wall: None,
     },

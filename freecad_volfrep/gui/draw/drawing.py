@@ -250,18 +250,3 @@ def _group(group: Any, *parts: Any) -> Any:
     for part in parts:
         group.addChild(part)
     return group
-
-
-def sign(text: str, at: tuple[float, float, float]) -> Any:
-    """A few words at a place in mm, which face the viewer and are not picked."""
-    from pivy import coin
-
-    colour, move, font, words = (
-        coin.SoBaseColor(), coin.SoTranslation(), coin.SoFont(), coin.SoText2(),
-    )  # fmt: skip
-    colour.rgb = (0.94, 0.5, 0.0)
-    move.translation = at
-    font.size = 16.0
-    words.string = text
-    words.justification = coin.SoText2.CENTER
-    return separate(unpickable(), colour, move, font, words)

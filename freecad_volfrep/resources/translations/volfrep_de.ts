@@ -2121,16 +2121,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Kommt, sobald das Netz da ist</translation>
     </message>
     <message>
-      <source>Out of date</source>
-      <translation>Veraltet</translation>
-    </message>
-    <message>
       <source>Recompute first</source>
       <translation>Zuerst neu berechnen</translation>
     </message>
     <message>
       <source>The mesh of {labels} is out of date: {why}.</source>
       <translation>Das Netz von {labels} ist veraltet: {why}.</translation>
+    </message>
+    <message>
+      <source>Update</source>
+      <translation>Aktualisieren</translation>
     </message>
     <message>
       <source>Use it as it is</source>
@@ -2147,6 +2147,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>what it is made of has changed and is not recomputed yet</source>
       <translation>woraus es gemacht ist, hat sich geändert und ist noch nicht neu berechnet</translation>
+    </message>
+    <message>
+      <source>{count} lattices are out of date</source>
+      <translation>{count} Gitter sind nicht aktuell</translation>
+    </message>
+    <message>
+      <source>{label} is out of date</source>
+      <translation>{label} ist nicht aktuell</translation>
     </message>
   </context>
   <context>

@@ -2121,16 +2121,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Viene quando la mesh c'è</translation>
     </message>
     <message>
-      <source>Out of date</source>
-      <translation>Non aggiornata</translation>
-    </message>
-    <message>
       <source>Recompute first</source>
       <translation>Prima ricalcola</translation>
     </message>
     <message>
       <source>The mesh of {labels} is out of date: {why}.</source>
       <translation>La mesh di {labels} non è aggiornata: {why}.</translation>
+    </message>
+    <message>
+      <source>Update</source>
+      <translation>Aggiorna</translation>
     </message>
     <message>
       <source>Use it as it is</source>
@@ -2147,6 +2147,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>what it is made of has changed and is not recomputed yet</source>
       <translation>ciò di cui è fatta è cambiato e non è ancora ricalcolato</translation>
+    </message>
+    <message>
+      <source>{count} lattices are out of date</source>
+      <translation>{count} reticoli non sono aggiornati</translation>
+    </message>
+    <message>
+      <source>{label} is out of date</source>
+      <translation>{label} non è aggiornato</translation>
     </message>
   </context>
   <context>

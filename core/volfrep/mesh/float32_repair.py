@@ -59,6 +59,16 @@ def without_slivers(
     return mesh if result is mesh else compact(result, owned=True), new
 
 
+def without_slivers_at(
+    mesh: TriangleMesh, rows: Ints, tolerance: float
+) -> tuple[TriangleMesh, Bools]:
+    """As `without_slivers`, of those that share a vertex with chosen triangles, of any mesh."""
+    near = touching(vertices_of(mesh.triangles[rows], len(mesh.vertices)), mesh.triangles)
+    thin = _slivers(mesh.vertices, mesh.triangles[near], tolerance)
+    result, new, _ = _rebuilt(mesh, np.flatnonzero(near)[thin], tolerance)
+    return mesh if result is mesh else compact(result, owned=True), new
+
+
 def without_inner_slivers(
     mesh: TriangleMesh, rim: Ints, tolerance: float
 ) -> tuple[TriangleMesh, Bools, Ints]:

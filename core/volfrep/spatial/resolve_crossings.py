@@ -82,16 +82,21 @@ class Turns:
         return Turns(np.pad(self.among, (0, more)), self.pairs)
 
 
-def turns_of(mesh: TriangleMesh, monitor: Monitor, deformed: bool = False) -> Turns:
+def turns_of(
+    mesh: TriangleMesh, monitor: Monitor, deformed: bool = False, also: Bools | None = None
+) -> Turns:
     """Where a mesh turns back, and crosses itself there; as of `resolve_fold_crossings`.
 
     Deformed struts of different joints may meet where nothing turns back: of a mesh that is no
-    larger than `MOST_ANYWHERE` all is looked at.
+    larger than `MOST_ANYWHERE` all is looked at; of any the triangles (m,) that are looked at
+    `also`.
     """
     if deformed and len(mesh.triangles) <= MOST_ANYWHERE:
         among = np.ones(len(mesh.triangles), bool)
     else:
         among = find_folds(mesh, deformed)
+    if also is not None:
+        among |= also
     return Turns(among, _crossing(mesh, among, monitor))
 
 

@@ -12,12 +12,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..mesh.float32_repair import edge_within, separate_vertices, without_slivers
+from ..mesh.float32_repair import (
+    edge_within,
+    separate_vertices,
+    without_slivers,
+    without_slivers_at,
+)
 from ..mesh.precision import merging_vertices
 from ..mesh.quality import Quality, refuse_no_solid
 from ..mesh.topology import touching
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..spatial.resolve_crossings import resolve_fold_crossings, turns_of
+from ..spatial.resolve_crossings import Turns, resolve_fold_crossings, turns_of
 from ..spatial.self_intersection import about, crossing_triangles
 from ..spatial.winding import Lines
 from ..util.errors import VolfrepError
@@ -30,6 +35,9 @@ from .trimmed_surface import TrimmedSurface
 ABOUT = 0.25
 #: Lines see no crossing where less than this part of the volume is not enclosed once: rounding.
 ROUNDING = 1e-9
+#: Facets that cross and cannot be drawn apart lose slivers as thin as so many shortest edges of a
+#: file, one after the other: where a wall grazes a strut facets may be all but a line.
+THINNER = (2.0, 4.0, 8.0, 16.0)
 #: A solid of which more than this part is not enclosed once is refused; less is told.
 MOST_CROSSED = 0.05
 #: Vertices that are moved apart change no more than this part of the volume; more is a mesh whose
@@ -95,15 +103,19 @@ def finish(
             raise _finer_than_files(mesh)
         refuse_merging(apart)
         quality = again
-    straight, place = surface.mesh, None
+    straight, place, drawn = surface.mesh, None, False
     if moved or cut:
         turns = turns_of(surface.mesh, monitor, moved)
         if len(turns.pairs) and surface.octants is not None:  # which may have to go along
             beside = len(surface.mesh.triangles)
             surface = _with_octants_about(surface, turns.pairs, monitor)
             turns = turns.followed_by(len(surface.mesh.triangles) - beside)
-        straight, place = resolve_fold_crossings(surface.mesh, monitor, moved, turns)
-    if straight is not surface.mesh:
+        before = surface.mesh
+        straight, place = resolve_fold_crossings(before, monitor, moved, turns)
+        if place is not None:
+            surface, straight, place = thinned(surface, turns, straight, place, monitor, moved)
+        drawn = straight is not before
+    if drawn:
         changed = replace(surface, mesh=straight)
         wider = _with_reached(surface, changed, monitor)
         if wider is not changed:
@@ -127,6 +139,45 @@ def finish(
     if share > MOST_CROSSED:
         raise VolfrepError(f"{where}, {advice}.")
     return surface, quality, (*told, f"{where}; {advice} if that matters.")
+
+
+def thinned(
+    surface: TrimmedSurface,
+    turns: Turns,
+    straight: TriangleMesh,
+    place: Floats,
+    monitor: Monitor,
+    moved: bool,
+) -> tuple[TrimmedSurface, TriangleMesh, Floats | None]:
+    """A surface without the slivers about facets that cross, if nothing crosses then.
+
+    Args:
+        surface: as it was before anything was drawn apart.
+        turns: where it turns back.
+        straight: its mesh as far as it could be drawn apart.
+        place: (3,) where that still crosses, mm.
+        monitor: for cancel.
+        moved: as of `finish`.
+
+    Returns:
+        The surface; its mesh, drawn apart; and where that still crosses.
+    """
+    precision, rows = edge_within(surface.bounds), np.unique(turns.pairs)
+    for factor in THINNER:
+        mesh, new = without_slivers_at(surface.mesh, rows, factor * precision)
+        changed = replace(surface, mesh=mesh)
+        if not new.any() or not changed.is_joined:
+            continue
+        if changed.octants is not None:
+            near = changed.octants.reached(mesh.vertices[mesh.triangles[new]])
+            changed = changed.with_octants(near, monitor)
+        whole = changed.mesh
+        new = np.pad(new, (0, len(whole.triangles) - len(new)))
+        turns_now = turns_of(whole, monitor, moved, new)
+        apart, left = resolve_fold_crossings(whole, monitor, moved, turns_now)
+        if left is None:
+            return changed, apart, None
+    return surface, straight, place
 
 
 def _with_octants_about(surface: TrimmedSurface, pairs: Ints, monitor: Monitor) -> TrimmedSurface:

@@ -15,14 +15,62 @@ from volfrep.mesh.float32_repair import without_slivers
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.output.meshes import write_mesh
-from volfrep.spatial.resolve_crossings import Turns
+from volfrep.spatial.resolve_crossings import Turns, resolve_fold_crossings, turns_of
 from volfrep.spatial.self_intersection import crossing_triangles
-from volfrep.trim.finish import finish, refuse_merging, tidy
+from volfrep.trim.finish import finish, refuse_merging, thinned, tidy
 from volfrep.trim.group_cut import rim_of
 from volfrep.trim.loose_pieces import clear
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import VolfrepError
 from volfrep.util.progress import Monitor
+
+#: Where the wall of a sized skin grazes a strut, mm: facets there are all but lines.
+GRAZED = [
+    (72.745056, 15.855831, 92.213474),
+    (72.392166, 16.045443, 91.534977),
+    (73.379580, 15.524664, 92.080027),
+    (73.066862, 15.405520, 91.589067),
+    (72.048520, 16.413966, 92.395478),
+    (71.905599, 15.019006, 91.941214),
+    (72.564662, 14.417049, 91.556107),
+    (72.564625, 15.365678, 92.038079),
+    (72.564564, 15.685693, 92.197805),
+    (73.845747, 15.381002, 92.042081),
+    (72.717457, 15.939173, 92.323076),
+    (72.860510, 15.900526, 92.304842),
+    (73.370262, 15.593444, 92.152417),
+    (72.564975, 16.077658, 92.390180),
+    (72.824351, 15.910357, 92.309538),
+    (73.413930, 15.593517, 92.152323),
+    (73.206927, 15.695391, 92.205170),
+    (73.205994, 15.695972, 92.205470),
+    (73.205750, 15.696046, 92.205508),
+]
+GRAZED_FACETS = [
+    (3, 2, 0),
+    (3, 0, 1),
+    (0, 4, 1),
+    (0, 11, 14),
+    (0, 14, 10),
+    (18, 11, 0),
+    (2, 12, 16),
+    (0, 2, 16),
+    (16, 18, 0),
+    (18, 16, 17),
+    (0, 10, 13),
+    (4, 0, 13),
+    (5, 7, 6),
+    (8, 7, 5),
+    (7, 9, 6),
+    (8, 18, 7),
+    (15, 9, 7),
+    (12, 15, 7),
+    (16, 12, 7),
+    (7, 17, 16),
+    (18, 8, 14),
+    (18, 14, 11),
+    (17, 7, 18),
+]
 
 
 def moved(mesh, by):
@@ -240,3 +288,22 @@ def test_octants_about_facets_that_cross_go_along_and_the_others_stay_beside(mon
     assert result.surface.is_joined
     assert result.report.watertight
     assert len(at_rim) == 1
+
+
+def test_facets_that_are_all_but_lines_go_where_they_cross():
+    """In a part of 180 mm, as steps of single precision are as long as these facets are high."""
+    corner = samples.box((1.0, 1.0, 1.0))
+    mesh = concatenate(
+        TriangleMesh(np.array(GRAZED), np.array(GRAZED_FACETS, np.int32)),
+        moved(corner, (178.0, 0.0, 0.0)),
+    )
+    monitor = Monitor()
+    turns = turns_of(mesh, monitor, True)
+    assert len(turns.pairs)
+    drawn, place = resolve_fold_crossings(mesh, monitor, True, turns)
+    assert place is not None
+    surface, apart, left = thinned(TrimmedSurface(mesh), turns, drawn, place, monitor, True)
+    assert left is None
+    assert not len(turns_of(apart, monitor, True).pairs)
+    assert len(mesh.triangles) - 8 < len(apart.triangles) < len(mesh.triangles)
+    assert surface.mesh.area == pytest.approx(mesh.area, rel=1e-5)

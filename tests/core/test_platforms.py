@@ -5,6 +5,7 @@ import ast
 import errno
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -29,9 +30,10 @@ FOLDER = Path("My Parts", "Größe 10 µm, 試作", *["a folder of a long name"]
 
 def known_files():
     """Files that git knows; in a copy without git, all but what is hidden or made."""
-    done = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True)
-    if done.returncode == 0:
-        return [name for name in done.stdout.split("\0") if name]
+    if shutil.which("git"):
+        done = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True)
+        if done.returncode == 0:
+            return [name for name in done.stdout.split("\0") if name]
     found = (path.relative_to(ROOT) for path in ROOT.rglob("*") if path.is_file())
     hidden = re.compile(r"\..*|build|__pycache__|.*\.egg-info")
     return [p.as_posix() for p in found if not any(hidden.fullmatch(part) for part in p.parts)]

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a report of a fault needs to say of the machine: versions, no names of people or files."""
+"""What a report of a fault needs to say: versions, the job and what was printed, without names.
+
+Names of people and customers stand in folders and in comments. A specification is read as TOML, and
+its values are written anew; of what the command printed, the folders of paths are taken out.
+"""
 
 from __future__ import annotations
 
@@ -9,26 +13,40 @@ import platform
 import re
 import sys
 from argparse import Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from ..util.version import PACKAGES, VERSION, versions
 
 #: Packages of which the version matters beside the needed ones: those of single features.
 FEATURES = ("meshio", "pyvista", "gmsh", "networkx", "pandas", "matplotlib", "distributed")
+#: Of what was printed, so many lines at the end are told.
+LAST_LINES = 200
 
-#: Texts and comments of TOML.
-_SAID = re.compile(r"""\"(?:[^"\\]|\\.)*"|'[^']*'|#.*""")
-#: What begins at a root, or ends as files do; formulas divide, too.
-_PATH = re.compile(r"^(/|~|\.\.?[\\/]|\\\\|[A-Za-z]:[\\/])|[\\/].*\.[A-Za-z]\w*$")
+#: A text that begins at a root, or ends as files do; formulas divide, too.
+_PATH = re.compile(r"^(/|~|\.\.?[\\/]|\\\\|[A-Za-z]:[\\/])|[\\/].*\.[A-Za-z]\w*$", re.DOTALL)
+#: A user's own folder, whose last name is that of a person.
+_HOME = re.compile(
+    r"(/home|/Users|[A-Za-z]:[\\/]+Users)[\\/]+"
+    r"([^\s\\/'\":,;()]+( [^\s\\/'\":,;()]+)?(?=[\\/])|[^\s\\/'\":,;()]+)"
+)
+#: In what was printed: a quoted text with a separator, and the folders before a word: from a root,
+#: or before a name that ends as files do.
+_QUOTED = re.compile(r"""(?P<mark>['"])(?P<path>[^'"\n]*[\\/][^'"\n]*)(?P=mark)""")
+_WORD = re.compile(
+    r"(?<![\w.'\"])(?:~|\.\.?|[A-Za-z]:)?[\\/](?:[^\s'\":,;()]+[\\/])*(?=[^\s'\":,;()])"
+    r"|(?<![\w.'\"\\/])[^\s'\":,;()]+[\\/](?=[^\s'\":,;()\\/]+\.[A-Za-z])"
+)
+#: What tells which line of a program it was, from the package on.
+_SOURCE = re.compile(r".*[\\/](?=(?:freecad[\\/])?(?:freecad_)?volfrep[\\/].*\.py$)")
 
 
-def describe_machine(specification: str = "") -> str:
+def describe_machine(specification: str = "", log: str = "") -> str:
     """Text for a report of a fault.
 
     Args:
-        specification: of the job that failed, as `--write-spec` writes it; paths in it lose their
-            folders.
+        specification: of the job that failed, as `without_folders` gives it.
+        log: what was printed, as `log_without_folders` gives it.
     """
     rows = {
         "volfrep": VERSION,
@@ -38,37 +56,75 @@ def describe_machine(specification: str = "") -> str:
         **versions((*PACKAGES, *FEATURES)),
     }
     text = "\n".join(f"- {name}: {value}" for name, value in rows.items())
-    if specification:
-        text += f"\n\n```toml\n{without_folders(specification).rstrip()}\n```"
+    for kind, part in (("toml", specification), ("text", log)):
+        if part:
+            text += f"\n\n```{kind}\n{part.rstrip()}\n```"
     return text
 
 
-def without_folders(text: str) -> str:
-    """A specification without comments, whose files are named without their folders.
+def without_folders(entries: Mapping[str, Any]) -> str:
+    """What a TOML file holds, written anew: no comments, and files without their folders.
 
-    >>> without_folders('keep_solid = ["/home/ann/boss.stl"]  # of Ann')
-    'keep_solid = ["boss.stl"]'
+    >>> print(without_folders({"cell": "CVC", "keep_solid": ["/home/ann/boss.stl"]}))
+    cell = "CVC"
+    keep_solid = ["boss.stl"]
     """
-    return "\n".join(_SAID.sub(_kept, line).rstrip() for line in text.splitlines())
+    return "\n".join(f"{_key(name)} = {_toml(value)}" for name, value in entries.items())
 
 
-def _kept(found: re.Match[str]) -> str:
-    """What is kept of a text, or of a comment."""
-    said = found[0]
-    if said.startswith("#"):
-        return ""
-    inner = said[1:-1].replace("\\\\", "\\")
-    return json.dumps(re.split(r"[\\/]", inner)[-1]) if _PATH.search(inner) else said
+def _toml(value: Any) -> str:
+    """A value in TOML's notation, tables in line; texts that are paths lose their folders."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, Mapping):
+        inner = ", ".join(f"{_key(name)} = {_toml(one)}" for name, one in value.items())
+        return f"{{ {inner} }}" if inner else "{}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(_toml, value))}]"
+    if isinstance(value, str):
+        return json.dumps(_last(value), ensure_ascii=False).replace("\x7f", "\\u007f")
+    return str(value)
+
+
+def _key(name: str) -> str:
+    return name if re.fullmatch(r"[\w-]+", name, re.ASCII) else json.dumps(_last(name))
+
+
+def _last(text: str) -> str:
+    """A path's last name; any other text as it is."""
+    path = _HOME.sub("~", text.strip())
+    return re.split(r"[\\/]", path.rstrip("\\/"))[-1] if _PATH.search(path) else text
+
+
+def log_without_folders(text: str) -> str:
+    """The end of what was printed, without the folders of the paths in it.
+
+    >>> log_without_folders("Cannot read the mesh '/home/ann/her part/rod.stl': it is empty.")
+    "Cannot read the mesh 'rod.stl': it is empty."
+    """
+    lines = _HOME.sub("~", text).splitlines()[-LAST_LINES:]
+    return "\n".join(_WORD.sub("", _QUOTED.sub(_quoted, line)) for line in lines)
+
+
+def _quoted(found: re.Match[str]) -> str:
+    path = found["path"]
+    source = _SOURCE.sub("", path)
+    return f"{found['mark']}{source if source != path else _last(path)}{found['mark']}"
 
 
 def add_command(add: Callable[..., Any]) -> None:
     """Add ``report-bug`` to the command's parser."""
     parser = add("report-bug", _run, "Print what a report of a fault needs: versions, and the job.")
     parser.add_argument("--spec", metavar="FILE", help="the specification of the job that failed")
+    parser.add_argument("--log", metavar="FILE", help="what it printed")
 
 
 def _run(options: Namespace) -> None:
-    from ..util.reading import read_text
+    from ..util.reading import read_text, read_toml
 
-    text = "" if options.spec is None else read_text(options.spec, "specification")
-    sys.stdout.write(describe_machine(text) + "\n")
+    specification = log = ""
+    if options.spec is not None:
+        specification = without_folders(read_toml(options.spec, "specification"))
+    if options.log is not None:
+        log = log_without_folders(read_text(options.log, "log"))
+    sys.stdout.write(describe_machine(specification, log) + "\n")

@@ -5,6 +5,7 @@ Writes pictures and ``study.json`` to GUI_OUT and leaves with 0 when every check
 """
 
 import sys
+import time
 from pathlib import Path
 
 import FreeCADGui as Gui
@@ -18,9 +19,11 @@ from driving import (
     choose_in_context_menu,
     click,
     click_in_tree,
+    figures,
     move_mouse,
     picture,
     press_button,
+    previews,
     run_checks,
     select,
     settle,
@@ -86,15 +89,20 @@ def study_an_infill(doc, infill):
     type_into("Values1", "BCC, CVC, Octet")
     type_into("Values2", "0.7 to 1.1 in 3")
     type_into("Values3", "1, 2")
-    check("it says how many designs", part("Count").text() == "18 designs", part("Count").text())
+    told = part("Count")
+    check("it says how many designs", told.text().startswith("18 designs"), told.text())
+    check("and how long they take", wait_until(lambda: "about" in told.text(), 10), told.text())
+    expected = float(told.text().split("about ")[1].split()[0])
+    start = time.monotonic()
     click(part("Start"))
     check(
         "designs come", wait_until(lambda: study_of(doc).Designs == 18, 120), study_of(doc).Status
     )
+    figures["seconds told"], figures["seconds taken"] = expected, time.monotonic() - start
     settle()
     axes = [part(name).currentText() for name in ("Across", "Up")]
-    check("the plot's axes are in words", axes == ["expected mass, g", "stiffness along an edge"],
-          axes)  # fmt: skip
+    words = ["expected mass, g", "stiffness along an edge, of the solid's"]
+    check("the plot's axes are in words with units", axes == words, axes)
     picture("study")
     undo = doc.UndoCount
     (row,) = (
@@ -102,13 +110,22 @@ def study_an_infill(doc, infill):
     )
     check("nothing can be applied before a point is picked", not part("Apply").isEnabled())
     click_point(row)
-    check("the point's values are told", "BCC" in part("Picked").text(), part("Picked").text())
+    said = part("Picked").text()
+    check(
+        "the point's values are told",
+        all(
+            text in said for text in ("Cell Type BCC", "Strut Radius 0.9 mm", "Skin thickness 1 mm")
+        ),
+        said,
+    )
+    check("its picture is in the view", previews() == 1 and not infill.Visibility, previews())
     picture("study_picked")
     click(part("Apply"))
     wait_until(lambda: infill.CellType == "BCC", 60)
     settle()
     check("the infill has the design", infill.StrutRadius.Value == 0.9, infill.StrutRadius)
     check("all of it", infill.ShellThickness.Value == 1.0, infill.ShellThickness)
+    check("which is shown again", previews() == 0 and infill.Visibility)
     check("and is computed", infill.isValid() and infill.Status == "Up to date", infill.Status)
     mass = infill.Mesh.Volume / 1000.0
     check("as heavy as was forecast", abs(mass / row["forecast.mass_g"] - 1.0) < 0.06, mass)
@@ -139,9 +156,11 @@ def open_it_again(doc, infill):
     click_point(rows_of(doc)[0])
     check("and its points", part("Apply").isEnabled())
     picture("study_again")
+    check("the design is shown", previews() == 1 and not infill.Visibility)
     answer_panel("Close")
     wait_until(lambda: form() is None, 10)
     settle()
+    check("and the infill after it", previews() == 0 and infill.Visibility)
     choose_in_context_menu(made, "VOLFREP", "Design Study")
     check("the context menu opens it", wait_until(lambda: form() is not None, 10))
     answer_panel("Close")

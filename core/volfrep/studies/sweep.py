@@ -272,7 +272,7 @@ def forecast_study(study: Study) -> tuple[Designs, float, float]:
     plans = [plan(solids[design.part.content], design.spec) for design in found.designs]
     actions = {name: ACTIONS[name].meshed for name in study.do}
     seconds = sum(
-        weight(design, plan.seconds, actions)
+        weight(design.spec, plan.seconds, actions)
         for design, plan in zip(found.designs, plans, strict=True)
     )
     meshed = any(actions.values())

@@ -120,11 +120,14 @@ class LivePreview:
             VolfrepError: they make no sense, or do not fit the solid.
         """
         require_engine()
+        return self.show_spec(*self._obj.Proxy.read(self._obj))
+
+    def show_spec(self, spec: LatticeSpec, mesh: TriangleMesh) -> Shown:
+        """The same of another specification in the infill's solid."""
         from volfrep.design.forecast import forecast_fill
         from volfrep.io.solid import check_solid
         from volfrep.jobs.preview import PartDepth, preview
 
-        spec, mesh = self._obj.Proxy.read(self._obj)
         faces = (spec.open_faces, spec.face_skins, spec.keep_solid)
         key = digest_of(mesh.vertices, mesh.triangles, faces)
         if self._key != key:

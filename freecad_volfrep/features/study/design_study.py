@@ -6,6 +6,7 @@ from __future__ import annotations
 import hashlib
 import json
 import re
+from collections.abc import Iterable
 from functools import cache, partial
 from math import prod
 from pathlib import Path
@@ -32,6 +33,7 @@ from volfrep.design.target import stiffness_text
 from volfrep.util.errors import Cancelled, VolfrepError
 
 if TYPE_CHECKING:
+    from freecad_volfrep.features.infill.live_preview import LivePreview, Shown
     from volfrep.process.worker import Program
     from volfrep.studies.study import Study
 
@@ -46,6 +48,11 @@ _AIMED = {"target_density": "relative_density", "target_mass": "mass"}
 #: So many times its present value, a number begins with.
 _AROUND = (0.8, 0.9, 1.0, 1.1, 1.25)
 _RANGE = re.compile(r"\s*(.+?)\s+to\s+(.+?)\s+in\s+(\d+)\s*")
+#: Of each property so many values, and its last, tell how long a study takes.
+_FEW = 2
+#: That begins with starting the workers, s.
+_BEGIN = 4.0
+OF_THE_SOLID = "of the solid's"
 IN_TURN = (
     "The Python that goes with this FreeCAD cannot run the engine by itself: runs are done one "
     "after the other."
@@ -187,6 +194,52 @@ def designs_asked(infill: App.DocumentObject, lines: list[str]) -> int:
     )
 
 
+def expected_seconds(infill: App.DocumentObject, lines: list[str], is_filled: bool) -> float:
+    """About how long a start takes that such lines ask for, s.
+
+    A few of the designs are forecast and stand for all.
+
+    Args:
+        infill: whose designs they are.
+        lines: what varies.
+        is_filled: whether every design is made.
+
+    Raises:
+        VolfrepError: as `variations`, or none of the designs makes sense.
+    """
+    from volfrep.studies.actions import ACTIONS
+    from volfrep.studies.designs import specified
+    from volfrep.studies.expectation import plan
+    from volfrep.studies.running.executors import fitting_workers
+    from volfrep.studies.running.scheduling import weight
+    from volfrep.studies.sampling import Range, grid
+
+    spec, solid = infill.Proxy.read(infill)
+    varied = {
+        name: span.values(name) if isinstance(span, Range) else span
+        for name, span in variations(infill, lines).items()
+    }
+    few = {
+        name: (*values[:: -(-len(values) // _FEW)], values[-1]) for name, values in varied.items()
+    }
+    actions = {name: ACTIONS[name].meshed for name in _actions(spec.is_graded, is_filled)}
+    fixed, material = _fixed(infill, varied), material_of(infill)
+    seconds, memory = [], 0.0
+    for values in grid(few):
+        try:
+            design = specified({**fixed, **values}, material)
+            forecast = plan(solid, design)
+        except VolfrepError as error:
+            refused = error
+            continue
+        seconds.append(weight(design, forecast.seconds, actions))
+        memory = max(memory, forecast.memory_gb if is_filled else 0.2)
+    if not seconds:
+        raise refused
+    count = prod(map(len, varied.values()))
+    return _BEGIN + count * sum(seconds) / len(seconds) / fitting_workers(memory, None)
+
+
 def variations(infill: App.DocumentObject, lines: list[str]) -> dict[str, Any]:
     """What varies, by the names of parameters, of lines such as ``CellSize: 6, 8``.
 
@@ -234,27 +287,36 @@ def study_of(obj: App.DocumentObject) -> Study:
         raise VolfrepError("There is nothing to vary: choose a lattice infill as Infill.")
     vary = variations(infill, obj.Vary)
     spec, solid = infill.Proxy.read(infill)
-    values, target = values_in_effect(infill)
-    if target is not None:
-        values.pop("strut_radius")
-        is_stiffness = target.aim == "stiffness"
-        values[target.aim] = stiffness_text(target) if is_stiffness else target.value
-    fixed = {
-        name: value
-        for name, value in values.items()
-        if value is not None and name not in vary and name not in _OF_THE_DOCUMENT
-    }
-    do = ("forecast",) if spec.is_graded else ("forecast", "properties")
     goals = {"forecast.mass_g": "least"}
     goals |= {} if spec.is_graded else {"properties.E100": "most"}
     return Study(
         parts=(check_solid(solid, infill.Base.Label),),
         vary=vary,
-        fixed=fixed,
-        do=(*do, "fill") if obj.Fill else do,
+        fixed=_fixed(infill, vary),
+        do=_actions(spec.is_graded, obj.Fill),
         front=Front(goals),
         material=material_of(infill),
     )
+
+
+def _fixed(infill: App.DocumentObject, vary: Iterable[str]) -> dict[str, Any]:
+    """The values that an infill gives to all designs, by the names of parameters."""
+    values, target = values_in_effect(infill)
+    if target is not None:
+        values.pop("strut_radius")
+        is_stiffness = target.aim == "stiffness"
+        values[target.aim] = stiffness_text(target) if is_stiffness else target.value
+    return {
+        name: value
+        for name, value in values.items()
+        if value is not None and name not in vary and name not in _OF_THE_DOCUMENT
+    }
+
+
+def _actions(is_graded: bool, is_filled: bool) -> tuple[str, ...]:
+    """What is done with every design; what is graded has no one stiffness."""
+    known = ("forecast",) if is_graded else ("forecast", "properties")
+    return (*known, "fill") if is_filled else known
 
 
 def run_study(obj: App.DocumentObject) -> bool:
@@ -300,6 +362,7 @@ def run_study(obj: App.DocumentObject) -> bool:
             "rows": made.table.rows,
             "varied": list(study.varied),
             "front": list(made.front),
+            "in_mpa": study.material is not None,
         }
     )
     obj.Status = f"{obj.Designs} designs of {obj.Infill.Label}"
@@ -322,6 +385,43 @@ def varied_of_study(obj: App.DocumentObject) -> list[str]:
     return list(json.loads(obj.Table)["varied"]) if obj.Table else []
 
 
+def unit_of_moduli(obj: App.DocumentObject) -> str:
+    """What the moduli of the last run are in: MPa, or the solid's; empty where nobody knows."""
+    units = {True: "MPa", False: OF_THE_SOLID, None: ""}
+    return units[json.loads(obj.Table).get("in_mpa") if obj.Table else None]
+
+
+def shown_design(obj: App.DocumentObject, key: str, live: LivePreview) -> Shown:
+    """The preview of one of a study's designs.
+
+    Args:
+        obj: a design study.
+        key: of one of its designs.
+        live: makes previews of its infill.
+
+    Raises:
+        VolfrepError: there is no such design, or it does not go with the present solid.
+    """
+    from volfrep.studies.designs import specified
+
+    varied = {name: _row(obj, key)[name] for name in varied_of_study(obj)}
+    values = {**_fixed(obj.Infill, varied), **varied}
+    _, solid = obj.Infill.Proxy.read(obj.Infill)
+    return live.show_spec(specified(values, material_of(obj.Infill)), solid)
+
+
+def _row(obj: App.DocumentObject, key: str) -> dict[str, Any]:
+    rows = {row["key"]: row for row in designs_of_study(obj)}
+    if key not in rows:
+        raise VolfrepError(f"The study has no design '{key}'.")
+    return rows[key]
+
+
+def parameter_of(name: str) -> Parameter:
+    """The parameter that varies under a name of a study."""
+    return BY_NAME[{aim: name for name, aim in _AIMED.items()}.get(name, name)]
+
+
 def apply_design(obj: App.DocumentObject, key: str) -> bool:
     """Give a design's values to the infill, and compute it; whether that went well.
 
@@ -332,15 +432,11 @@ def apply_design(obj: App.DocumentObject, key: str) -> bool:
     Raises:
         VolfrepError: there is no such design, or the infill has gone.
     """
-    rows = {row["key"]: row for row in designs_of_study(obj)}
-    if key not in rows:
-        raise VolfrepError(f"The study has no design '{key}'.")
-    infill = obj.Infill
+    row, infill = _row(obj, key), obj.Infill
     if not isinstance(getattr(infill, "Proxy", None), LatticeInfill):
         raise VolfrepError("The infill of this study has gone: choose another one as Infill.")
-    properties = {aim: name for name, aim in _AIMED.items()}
     for name in varied_of_study(obj):
-        parameter, value = BY_NAME[properties.get(name, name)], rows[key][name]
+        parameter, value = parameter_of(name), row[name]
         if parameter.kind == "choice":
             value = str(value).capitalize()
         set_value(infill, parameter.property_name, value)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -10,18 +11,25 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS
+from freecad_volfrep.features.infill.live_preview import LivePreview
 from freecad_volfrep.features.study.design_study import (
     apply_design,
     designs_asked,
     designs_of_study,
+    expected_seconds,
+    parameter_of,
     run_study,
+    shown_design,
+    unit_of_moduli,
     values_about,
     variable,
     varied_of_study,
 )
 from freecad_volfrep.gui.messages import WRONG, tell_error
+from freecad_volfrep.gui.panel.property_fields import LABELS
 from freecad_volfrep.gui.qt import CLOSE, QtCore, QtGui, QtWidgets
 from freecad_volfrep.gui.undo import undo_step
+from freecad_volfrep.gui.view.preview_view import PreviewView
 from freecad_volfrep.gui.widgets.panel_manners import (
     PanelForm,
     entitle,
@@ -37,25 +45,42 @@ from .study_plot import StudyPlot
 ROWS = 3
 #: What a plot shows first, where the table has it.
 FIRST = (("fill.mass_g", "forecast.mass_g"), ("properties.E100", "forecast.seconds"))
-#: Figures of its table in words; the others are shown as the table has them.
+#: Figures of its table in words, in the order in which axes offer them.
 WORDS = {
-    "forecast.mass_g": QT_TRANSLATE_NOOP("VolfrepStudy", "expected mass, g"),
-    "forecast.relative_density": QT_TRANSLATE_NOOP("VolfrepStudy", "expected relative density"),
-    "forecast.triangles": QT_TRANSLATE_NOOP("VolfrepStudy", "expected triangles"),
-    "forecast.seconds": QT_TRANSLATE_NOOP("VolfrepStudy", "time, s"),
     "fill.mass_g": QT_TRANSLATE_NOOP("VolfrepStudy", "mass, g"),
-    "fill.volume_mm3": QT_TRANSLATE_NOOP("VolfrepStudy", "volume, mm3"),
-    "fill.relative_density": QT_TRANSLATE_NOOP("VolfrepStudy", "relative density"),
-    "fill.triangles": QT_TRANSLATE_NOOP("VolfrepStudy", "triangles"),
+    "forecast.mass_g": QT_TRANSLATE_NOOP("VolfrepStudy", "expected mass, g"),
     "properties.E100": QT_TRANSLATE_NOOP("VolfrepStudy", "stiffness along an edge"),
     "properties.E110": QT_TRANSLATE_NOOP("VolfrepStudy", "stiffness across a face"),
     "properties.E111": QT_TRANSLATE_NOOP("VolfrepStudy", "stiffness along a diagonal"),
     "properties.G": QT_TRANSLATE_NOOP("VolfrepStudy", "shear modulus"),
-    "properties.K": QT_TRANSLATE_NOOP("VolfrepStudy", "bulk modulus"),
+    "properties.bulk": QT_TRANSLATE_NOOP("VolfrepStudy", "bulk modulus"),
+    "properties.strength": QT_TRANSLATE_NOOP("VolfrepStudy", "strength"),
+    "properties.shear_strength": QT_TRANSLATE_NOOP("VolfrepStudy", "shear strength"),
     "properties.nu": QT_TRANSLATE_NOOP("VolfrepStudy", "Poisson's ratio"),
     "properties.zener": QT_TRANSLATE_NOOP("VolfrepStudy", "Zener anisotropy"),
-    "properties.strength": QT_TRANSLATE_NOOP("VolfrepStudy", "strength"),
+    "properties.conductivity": QT_TRANSLATE_NOOP("VolfrepStudy", "conductivity, of the solid's"),
+    "fill.relative_density": QT_TRANSLATE_NOOP("VolfrepStudy", "relative density"),
+    "forecast.relative_density": QT_TRANSLATE_NOOP("VolfrepStudy", "expected relative density"),
+    "fill.volume_mm3": QT_TRANSLATE_NOOP("VolfrepStudy", "volume, mm3"),
+    "forecast.volume_mm3": QT_TRANSLATE_NOOP("VolfrepStudy", "expected volume, mm3"),
+    "fill.area_mm2": QT_TRANSLATE_NOOP("VolfrepStudy", "surface, mm2"),
+    "fill.strut_radius_mm": QT_TRANSLATE_NOOP("VolfrepStudy", "strut radius, mm"),
+    "forecast.strut_radius_mm": QT_TRANSLATE_NOOP("VolfrepStudy", "expected strut radius, mm"),
+    "fill.struts": QT_TRANSLATE_NOOP("VolfrepStudy", "struts"),
+    "forecast.struts": QT_TRANSLATE_NOOP("VolfrepStudy", "expected struts"),
+    "fill.triangles": QT_TRANSLATE_NOOP("VolfrepStudy", "triangles"),
+    "forecast.triangles": QT_TRANSLATE_NOOP("VolfrepStudy", "expected triangles"),
+    "forecast.seconds": QT_TRANSLATE_NOOP("VolfrepStudy", "time, s"),
+    "forecast.memory_gb": QT_TRANSLATE_NOOP("VolfrepStudy", "memory, GB"),
 }
+#: Those whose unit is the run's.
+MODULI = {f"properties.{name}" for name in ("E100", "E110", "E111", "G", "bulk", "strength",
+                                            "shear_strength")}  # fmt: skip
+#: As `unit_of_moduli` has it.
+OF_SOLID = QT_TRANSLATE_NOOP("VolfrepStudy", "of the solid's")
+#: The time is told once nothing was typed for so long, ms.
+SETTLED = 250
+UNITS = {"length": " mm", "mass": " g"}
 
 
 class StudyPanel:
@@ -68,6 +93,8 @@ class StudyPanel:
     def __init__(self, obj: App.DocumentObject) -> None:
         self._obj, self._doc = obj, obj.Document
         self._picked: dict[str, Any] | None = None
+        self._live, self._view = LivePreview(obj.Infill), None
+        self._was_visible: dict[Any, bool] = {}
         self.form = self._build()
         self._show_table()
 
@@ -77,6 +104,7 @@ class StudyPanel:
 
     def reject(self) -> bool:
         """Close."""
+        self._show_infill()
         Gui.Control.closeDialog()
         gui = Gui.getDocument(self._doc.Name)
         if gui is not None and gui.getInEdit() is not None:
@@ -86,6 +114,7 @@ class StudyPanel:
     def start(self) -> None:
         """Run what is missing of the study that the panel shows, as one undo step."""
         self._say("")
+        self._show_infill()
         try:
             with undo_step(self._doc, translate("VOLFREP_DesignStudy", "Design Study")):
                 self._write()
@@ -102,6 +131,7 @@ class StudyPanel:
         if self._picked is None:
             return
         step = translate("VOLFREP_DesignStudy", "Apply Design")
+        self._show_infill()
         try:
             with undo_step(self._doc, step):
                 went_well = apply_design(self._obj, self._picked["key"])
@@ -131,11 +161,15 @@ class StudyPanel:
         self._fill = QtWidgets.QCheckBox(translate("VolfrepStudy", "Mesh and measure every design"))
         self._fill.setObjectName("Fill")
         self._fill.setChecked(self._obj.Fill)
+        self._fill.toggled.connect(lambda _: self._show_count())
         column.addWidget(self._fill)
         line = QtWidgets.QHBoxLayout()
         self._count = QtWidgets.QLabel()
         self._count.setObjectName("Count")
         line.addWidget(self._count, 1)
+        self._settles = QtCore.QTimer(form)
+        self._settles.setSingleShot(True)
+        self._settles.timeout.connect(self._show_time)
         self._show_count()
         self._button(line, "Start", translate("VolfrepStudy", "Start"), self.start)
         column.addLayout(line)
@@ -169,11 +203,13 @@ class StudyPanel:
         name.setObjectName(f"Property{number + 1}")
         values.setObjectName(f"Values{number + 1}")
         name.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
-        name.setMinimumContentsLength(7)
+        name.setMinimumContentsLength(10)
         values.setToolTip(translate("VolfrepStudy", "Values: 6, 8, 10, or 6 to 10 in 5"))
         name.addItem("", "")
         for known in self._known:
-            name.addItem(spaced(translate("App::Property", known)), known)
+            label = LABELS.get(known)
+            text = spaced(translate("App::Property", known))
+            name.addItem(text if label is None else translate("VolfrepTaskPanel", label), known)
         if number < len(self._obj.Vary):
             varied, _, text = (part.strip() for part in self._obj.Vary[number].partition(":"))
             name.setCurrentIndex(max(0, name.findData(varied)))
@@ -222,9 +258,23 @@ class StudyPanel:
             number = designs_asked(self._obj.Infill, self._lines())
         except VolfrepError:
             self._count.setText("")
+            self._settles.stop()
             return
         text = translate("VolfrepStudy", "{number} designs")
         self._count.setText(text.format(number=grouped(number)))
+        self._settles.start(SETTLED)
+
+    def _show_time(self) -> None:
+        """And about how long that takes."""
+        from volfrep.studies.running.executors import told_time
+
+        try:
+            seconds = expected_seconds(self._obj.Infill, self._lines(), self._fill.isChecked())
+        except VolfrepError as error:
+            self._count.setToolTip(str(error))
+            return
+        text = translate("VolfrepStudy", "{designs}, about {time}")
+        self._count.setText(text.format(designs=self._count.text(), time=told_time(seconds)))
 
     def _write(self) -> None:
         """What the panel shows, into the object."""
@@ -235,16 +285,14 @@ class StudyPanel:
         """The axes that the table has figures for, and the plot."""
         rows = designs_of_study(self._obj)
         numeric = [
-            name
-            for name in (rows[0] if rows else ())
-            if "." in name and any(isinstance(row[name], (int, float)) for row in rows)
+            name for name in WORDS if any(isinstance(row.get(name), (int, float)) for row in rows)
         ]
         for choice, wanted in zip((self._across, self._up), FIRST, strict=True):
             before = choice.currentData()
             choice.blockSignals(True)
             choice.clear()
             for name in numeric:
-                choice.addItem(_in_words(name), name)
+                choice.addItem(self._in_words(name), name)
             shown = [name for name in (before, *wanted) if name in numeric]
             choice.setCurrentIndex(choice.findData(shown[0]) if shown else -1)
             choice.blockSignals(False)
@@ -259,14 +307,53 @@ class StudyPanel:
         colour = words[0] if words else ""
         rows = designs_of_study(self._obj)
         axes = [choice.currentData() or "" for choice in (self._across, self._up)]
-        self._plot.show_rows(rows, (axes[0], axes[1]), [_in_words(name) for name in axes], colour)
+        self._plot.show_rows(
+            rows, (axes[0], axes[1]), [self._in_words(name) for name in axes], colour
+        )
 
     def _pick(self, row: dict[str, Any]) -> None:
         self._picked = row
         self._applies.setEnabled(True)
-        values = [f"{name} {_shown(row[name])}" for name in varied_of_study(self._obj)]
-        axes = (self._across.currentData(), self._up.currentData())
-        self._say(", ".join(values + [f"{_in_words(name)} {_shown(row[name])}" for name in axes]))
+        values = [_value_in_words(name, row[name]) for name in varied_of_study(self._obj)]
+        for axis in (self._across, self._up):
+            name, _, unit = self._in_words(axis.currentData()).partition(", ")
+            values.append(f"{name} {_shown(row[axis.currentData()])} {unit}".rstrip())
+        self._say(", ".join(values))
+        self._show_design(row["key"])
+
+    def _show_design(self, key: str) -> None:
+        """A design's preview in the place of the infill and its solid."""
+        try:
+            shown = shown_design(self._obj, key, self._live)
+        except VolfrepError as error:
+            self._show_infill()
+            self._say(str(error), wrong=True)
+            return
+        infill = self._obj.Infill
+        if self._view is None:
+            self._view = PreviewView(infill)
+            self._was_visible = {
+                part: part.ViewObject.Visibility for part in (infill, infill.Base) if part
+            }
+            for part in self._was_visible:
+                part.ViewObject.Visibility = False
+        self._view.show(shown, with_grid=False)
+
+    def _show_infill(self) -> None:
+        """What was shown before a design was."""
+        if self._view is None:
+            return
+        self._view.remove()
+        self._view = None
+        for part, visible in self._was_visible.items():
+            with suppress(ReferenceError):  # deleted meanwhile
+                part.ViewObject.Visibility = visible
+
+    def _in_words(self, name: str) -> str:
+        """A figure of the table as a user reads it, with its unit; empty for none."""
+        words = str(translate("VolfrepStudy", WORDS[name])) if name in WORDS else name
+        unit = unit_of_moduli(self._obj) if name in MODULI else ""
+        return ", ".join(filter(None, (words, unit and translate("VolfrepStudy", unit))))
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._text.setStyleSheet(WRONG if wrong else "")
@@ -284,9 +371,16 @@ def open_study(obj: App.DocumentObject) -> bool:
     return True
 
 
-def _in_words(name: str) -> str:
-    """A figure of the table as a user reads it."""
-    return str(translate("VolfrepStudy", WORDS[name])) if name in WORDS else name
+def _value_in_words(name: str, value: Any) -> str:
+    """What a parameter of a design is, as a user reads it."""
+    parameter = parameter_of(name)
+    label = LABELS.get(parameter.property_name)
+    told = (
+        translate("App::Property", spaced(parameter.property_name))
+        if label is None
+        else translate("VolfrepTaskPanel", label)
+    )
+    return f"{told} {_shown(value)}{UNITS.get(parameter.kind, '')}"
 
 
 def _shown(value: Any) -> str:

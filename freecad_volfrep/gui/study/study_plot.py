@@ -10,7 +10,7 @@ from typing import Any
 from freecad_volfrep.gui.qt import QtCore, QtGui, QtWidgets
 
 #: Room for the axes' numbers, px: left, top, right, bottom.
-MARGINS = (58, 12, 14, 34)
+MARGINS = (72, 12, 14, 34)
 #: A click within so many px of a point picks it.
 NEAR = 14
 #: Lines of the grid along each axis, about.
@@ -137,8 +137,12 @@ class StudyPlot(QtWidgets.QWidget):
         painter.save()
         painter.translate(2, top + frame.height() / 2)
         painter.rotate(-90)
-        side = QtCore.QRectF(-frame.height() / 2, 0, frame.height(), 14)
-        painter.drawText(side, int(QtCore.Qt.AlignHCenter), self._words[1])
+        side = QtCore.QRectF(-frame.height() / 2, 0, frame.height(), 28)
+        # What is too long for one line has its unit in the next.
+        title = self._words[1]
+        if painter.boundingRect(side, 0, title).width() > side.width():
+            title = title.replace(", ", ",\n", 1)
+        painter.drawText(side, int(QtCore.Qt.AlignHCenter), title)
         painter.restore()
 
     def _draw_legend(self, painter: Any, words: list[Any]) -> None:

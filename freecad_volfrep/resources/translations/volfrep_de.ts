@@ -3451,6 +3451,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Kompressionsmodul</translation>
     </message>
     <message>
+      <source>conductivity, of the solid's</source>
+      <translation>Leitfähigkeit, von der des Vollmaterials</translation>
+    </message>
+    <message>
       <source>expected mass, g</source>
       <translation>erwartete Masse, g</translation>
     </message>
@@ -3459,12 +3463,32 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>erwartete relative Dichte</translation>
     </message>
     <message>
+      <source>expected strut radius, mm</source>
+      <translation>erwarteter Strebenradius, mm</translation>
+    </message>
+    <message>
+      <source>expected struts</source>
+      <translation>erwartete Streben</translation>
+    </message>
+    <message>
       <source>expected triangles</source>
       <translation>erwartete Dreiecke</translation>
     </message>
     <message>
+      <source>expected volume, mm3</source>
+      <translation>erwartetes Volumen, mm3</translation>
+    </message>
+    <message>
       <source>mass, g</source>
       <translation>Masse, g</translation>
+    </message>
+    <message>
+      <source>memory, GB</source>
+      <translation>Speicher, GB</translation>
+    </message>
+    <message>
+      <source>of the solid's</source>
+      <translation>von der des Vollmaterials</translation>
     </message>
     <message>
       <source>relative density</source>
@@ -3473,6 +3497,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>shear modulus</source>
       <translation>Schubmodul</translation>
+    </message>
+    <message>
+      <source>shear strength</source>
+      <translation>Schubfestigkeit</translation>
     </message>
     <message>
       <source>stiffness across a face</source>
@@ -3491,6 +3519,18 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Festigkeit</translation>
     </message>
     <message>
+      <source>strut radius, mm</source>
+      <translation>Strebenradius, mm</translation>
+    </message>
+    <message>
+      <source>struts</source>
+      <translation>Streben</translation>
+    </message>
+    <message>
+      <source>surface, mm2</source>
+      <translation>Oberfläche, mm2</translation>
+    </message>
+    <message>
       <source>time, s</source>
       <translation>Zeit, s</translation>
     </message>
@@ -3501,6 +3541,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>volume, mm3</source>
       <translation>Volumen, mm3</translation>
+    </message>
+    <message>
+      <source>{designs}, about {time}</source>
+      <translation>{designs}, etwa {time}</translation>
     </message>
     <message>
       <source>{number} designs</source>

@@ -3451,6 +3451,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>modulo di compressibilità</translation>
     </message>
     <message>
+      <source>conductivity, of the solid's</source>
+      <translation>conducibilità, di quella del pieno</translation>
+    </message>
+    <message>
       <source>expected mass, g</source>
       <translation>massa prevista, g</translation>
     </message>
@@ -3459,12 +3463,32 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>densità relativa prevista</translation>
     </message>
     <message>
+      <source>expected strut radius, mm</source>
+      <translation>raggio atteso delle aste, mm</translation>
+    </message>
+    <message>
+      <source>expected struts</source>
+      <translation>aste attese</translation>
+    </message>
+    <message>
       <source>expected triangles</source>
       <translation>triangoli previsti</translation>
     </message>
     <message>
+      <source>expected volume, mm3</source>
+      <translation>volume atteso, mm3</translation>
+    </message>
+    <message>
       <source>mass, g</source>
       <translation>massa, g</translation>
+    </message>
+    <message>
+      <source>memory, GB</source>
+      <translation>memoria, GB</translation>
+    </message>
+    <message>
+      <source>of the solid's</source>
+      <translation>di quella del pieno</translation>
     </message>
     <message>
       <source>relative density</source>
@@ -3473,6 +3497,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>shear modulus</source>
       <translation>modulo di taglio</translation>
+    </message>
+    <message>
+      <source>shear strength</source>
+      <translation>resistenza a taglio</translation>
     </message>
     <message>
       <source>stiffness across a face</source>
@@ -3491,6 +3519,18 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>resistenza</translation>
     </message>
     <message>
+      <source>strut radius, mm</source>
+      <translation>raggio delle aste, mm</translation>
+    </message>
+    <message>
+      <source>struts</source>
+      <translation>aste</translation>
+    </message>
+    <message>
+      <source>surface, mm2</source>
+      <translation>superficie, mm2</translation>
+    </message>
+    <message>
       <source>time, s</source>
       <translation>tempo, s</translation>
     </message>
@@ -3501,6 +3541,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>volume, mm3</source>
       <translation>volume, mm3</translation>
+    </message>
+    <message>
+      <source>{designs}, about {time}</source>
+      <translation>{designs}, circa {time}</translation>
     </message>
     <message>
       <source>{number} designs</source>

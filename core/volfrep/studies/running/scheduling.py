@@ -16,6 +16,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ...design.spec import LatticeSpec
 from ...mechanics.catalogue import known_cell
 from ...process.child import Limits
 from ...process.cluster import dask_workers
@@ -119,7 +120,7 @@ class Job:
         solids = {d.part.content: kept_part(self._folder, d.part.content) for d in designs}
         plans = {d.key: plan(solids[d.part.content], d.spec) for d in designs}
         table = dict.fromkeys(names, meshed)
-        weights = {d.key: weight(d, plans[d.key].seconds, table) for d in designs}
+        weights = {d.key: weight(d.spec, plans[d.key].seconds, table) for d in designs}
         memory = max(plan.memory_gb for plan in plans.values()) if meshed else 0.2
         how = self._how
         with ExitStack() as open_until_done:
@@ -170,11 +171,11 @@ def _refuse_inputs(folder: Path, design: Design, names: tuple[str, ...], asked: 
                 refuse_input(folder / file[0] / f"{design.key}{suffix}")
 
 
-def weight(design: Design, seconds: float, actions: Mapping[str, bool]) -> float:
-    """Expected seconds of a run with these actions, of which some need the mesh."""
+def weight(spec: LatticeSpec, seconds: float, actions: Mapping[str, bool]) -> float:
+    """Expected seconds of a design's run with these actions, of which some need the mesh."""
     total = 0.0
     if "properties" in actions:
-        kind = design.spec.kind
+        kind = spec.kind
         cell = kind.catalogue_cell
         known = kind.endless is None or (cell is not None and known_cell(cell) is not None)
         total += QUICK if known else HOMOGENISED

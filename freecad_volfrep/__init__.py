@@ -26,6 +26,8 @@ _EXPORTS = {
     "make_solid": "freecad_volfrep.features.export.faceted_solid",
     "export_mesh": "freecad_volfrep.features.export.mesh_file",
     "make_print_check": "freecad_volfrep.features.reports.print_check",
+    "make_slicer_infill": "freecad_volfrep.features.export.slicer_infill",
+    "save_project": "freecad_volfrep.features.export.slicer_infill",
     "make_design_study": "freecad_volfrep.features.study.design_study",
     "run_study": "freecad_volfrep.features.study.design_study",
     "apply_design": "freecad_volfrep.features.study.design_study",
@@ -41,8 +43,10 @@ __all__ = [
     "make_fem_analysis",
     "make_lattice_infill",
     "make_print_check",
+    "make_slicer_infill",
     "make_solid",
     "run_study",
+    "save_project",
     "size_lattice",
 ]
 

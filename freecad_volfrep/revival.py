@@ -19,6 +19,7 @@ _TYPES = ("Mesh::FeaturePython", "App::FeaturePython")
 #: Properties by which our objects are known, whatever their proxies say.
 _INFILL = {"Fingerprint", "SchemaVersion", "StrutRadius", "Status"}
 _PRINT_CHECK = {"Infill", "Process", "Findings", "OverhangShare"}
+_SLICER_INFILL = {"Follows", "BandDensities", "ToldDensities", "Facets"}
 _STUDY = {"Infill", "Vary", "Fill", "Refused", "Table"}
 
 _watch: Watch | None = None
@@ -72,6 +73,10 @@ def revive(doc: App.Document) -> list[App.DocumentObject]:
             from .features.reports.print_check import PrintCheck, revive_print_check
 
             kind, bring_back = PrintCheck, revive_print_check
+        elif names >= _SLICER_INFILL:
+            from .features.export.slicer_infill import SlicerInfill, revive_slicer_infill
+
+            kind, bring_back = SlicerInfill, revive_slicer_infill
         elif names >= _STUDY:
             from .features.study.design_study import DesignStudy, revive_study
 

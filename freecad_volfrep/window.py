@@ -38,12 +38,18 @@ def _go_through(title: str, steps: Any) -> Any:
 
 
 def _attach_view(obj: App.DocumentObject) -> None:
-    from .gui.view_provider import DesignStudyView, LatticeInfillView, PrintCheckView
+    from .gui.view_provider import (
+        DesignStudyView,
+        LatticeInfillView,
+        PrintCheckView,
+        SlicerInfillView,
+    )
 
     views = {
         "LatticeInfill": LatticeInfillView,
         "PrintCheck": PrintCheckView,
         "DesignStudy": DesignStudyView,
+        "SlicerInfill": SlicerInfillView,
     }
     views[type(obj.Proxy).__name__](obj.ViewObject)
 
@@ -52,6 +58,7 @@ def _revive_view(obj: App.DocumentObject) -> None:
     from .gui.revived_view import (
         revive_infill_view,
         revive_print_check_view,
+        revive_slicer_infill_view,
         revive_study_view,
     )
 
@@ -59,5 +66,6 @@ def _revive_view(obj: App.DocumentObject) -> None:
         "LatticeInfill": revive_infill_view,
         "PrintCheck": revive_print_check_view,
         "DesignStudy": revive_study_view,
+        "SlicerInfill": revive_slicer_infill_view,
     }
     revive[type(obj.Proxy).__name__](obj.ViewObject)

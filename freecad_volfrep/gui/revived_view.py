@@ -5,7 +5,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from .view_provider import DesignStudyView, LatticeInfillView, PrintCheckView
+from .view_provider import (
+    DesignStudyView,
+    LatticeInfillView,
+    PrintCheckView,
+    SlicerInfillView,
+)
 
 
 def revive_infill_view(view: Any) -> None:
@@ -36,3 +41,14 @@ def revive_study_view(view: Any) -> None:
         proxy = DesignStudyView.__new__(DesignStudyView)
         proxy.attach(view)
         view.Proxy = proxy
+
+
+def revive_slicer_infill_view(view: Any) -> None:
+    """Give a slicer infill its icon, its panel and its bands back."""
+    if isinstance(view.Proxy, SlicerInfillView):
+        return
+    proxy = SlicerInfillView.__new__(SlicerInfillView)
+    proxy.attach(view)
+    view.Proxy = proxy
+    view.DisplayMode = view.listDisplayModes()
+    view.DisplayMode = proxy.getDefaultDisplayMode()

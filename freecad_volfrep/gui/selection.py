@@ -13,6 +13,9 @@ A_SOLID = QT_TRANSLATE_NOOP(
     "VolfrepCommands", "Select one or more solids: a Body, a Part, a link to one, a closed mesh."
 )
 AN_INFILL = QT_TRANSLATE_NOOP("VolfrepCommands", "Select one lattice infill.")
+A_SOLID_OR_SLICER_INFILL = QT_TRANSLATE_NOOP(
+    "VolfrepCommands", "Select one solid, or one slicer infill."
+)
 AN_INFILL_IN_VIEW = QT_TRANSLATE_NOOP(
     "VolfrepCommands", "Select one lattice infill that has a solid, with its 3D view in front."
 )

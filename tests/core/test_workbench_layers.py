@@ -44,6 +44,7 @@ LAYERS = (
     "gui.panel",
     "gui.sizing",
     "gui.study",
+    "gui.printing",
     "gui.commands",
     "gui.view_provider",
     "gui.revived_view",

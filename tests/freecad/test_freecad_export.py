@@ -21,11 +21,13 @@ from freecad_volfrep.features.export.layer_export import (
     layers_folder,
 )
 from freecad_volfrep.features.export.mesh_file import (
+    FITTED,
     FORMATS,
     chosen_format,
     estimate_export,
     formats_of,
 )
+from freecad_volfrep.features.export.printer_file import export_for_printer
 from freecad_volfrep.features.export.solver_files import CONTENTS
 from volfrep.jobs.slices import FORMATS as FORMS_OF_LAYERS
 from volfrep.mesh.display_parts import facets_with_neighbours
@@ -161,7 +163,7 @@ def test_the_formats_on_offer(doc, box, infill):
     ]  # fmt: skip
     offered = formats_of(infill)
     assert {form.content for form in offered} == {
-        "mesh", "beams", "both", "layers", *CONTENTS,
+        "mesh", "beams", "both", "layers", FITTED, *CONTENTS,
     }  # fmt: skip
     layers = {f".{form}" for form in FORMS_OF_LAYERS}
     assert {form.suffix for form in offered} == set(suffixes()) - {".stp"} | layers
@@ -364,3 +366,19 @@ def test_large_files_are_estimated_and_meshes_for_the_printer_are_not(infill):
     assert estimate_export(infill, by_title["STL"]) == ""
     assert "MB" in estimate_export(infill, by_title["STEP, plane faces"])
     assert "MB" in estimate_export(infill, by_title["CalculiX, beams"])
+
+
+def test_a_file_for_a_printer_keeps_limits_and_compensates(doc, box, tmp_path):
+    path = tmp_path / "part.stl"
+    box.Length = box.Width = box.Height = 12
+    infill = make_lattice_infill(doc, box, **{**SMALL, "CellType": "Box", "Resolution": 24})
+    doc.recompute()
+    most = int(0.7 * infill.Triangles)
+    notes = export_for_printer(infill, path, max_triangles=most, compensate="SLS-PA12")
+    written = Mesh.Mesh(str(path))
+    assert 0.5 * most < written.CountFacets <= most
+    assert written.Volume < infill.Volume.Value, "its struts are drawn thinner"
+    assert len(notes) == 2
+    assert "so that they come out 2.000 mm thick" in notes[0]
+    with pytest.raises(VolfrepError, match="Choose limits"):
+        export_for_printer(infill, path)

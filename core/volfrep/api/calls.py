@@ -610,6 +610,7 @@ def slicer_infill(
     part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
     wanted: BandedInfill | None = None,
     *,
+    sized: LatticeSpec | str | os.PathLike[str] | None = None,
     unit: str | None = None,
     material: str | None = None,
     progress: ProgressCallback | bool | None = None,
@@ -620,6 +621,8 @@ def slicer_infill(
     Args:
         part: as of `fill`, as it stands on the build plate.
         wanted: densities, pattern, walls and layers; None for the defaults.
+        sized: a specification with radii that struts were sized to, or its file: the density is
+            what these come to.
         unit: of a file's lengths; None for what it says, else mm.
         material: as of `fill`: its density gives the mass.
         progress: as of `fill`.
@@ -640,6 +643,8 @@ def slicer_infill(
     (3, 25)
     """
     from ..design.banded_infill import BandedInfill
+    from ..design.parameters.spec_file import read_spec
+    from ..jobs.figures.sized_density import sized_densities
     from ..jobs.slicer_infill import cut_bands
     from ..mechanics.materials import find_material
 
@@ -656,6 +661,10 @@ def slicer_infill(
             parameters |= {"field": values, "start": low, "end": high, "grading": "field"}
         elif isinstance(values, (tuple, list)):
             parameters["field"] = field_of("field", values, None, 1.0)
+        if sized is not None:
+            spec = sized if isinstance(sized, LatticeSpec) else read_spec(sized)
+            parameters["field"], parameters["curve"] = sized_densities(spec)
+            parameters["grading"] = "field"
         density = LatticeSpec.density if material is None else find_material(material).density
         wanted = dataclasses.replace(wanted or BandedInfill(), **parameters)
         return cut_bands(solid, wanted, material_density=density, progress=told)

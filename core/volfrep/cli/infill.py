@@ -49,7 +49,14 @@ def _infill(given: argparse.Namespace) -> None:
     density = LatticeSpec.density
     if given.material is not None:
         density = find_material(given.material).density
-    wanted = BandedInfill(**{name: getattr(given, name) for name in _FIELDS})
+    values = {name: getattr(given, name) for name in _FIELDS}
+    if given.sized is not None:
+        from ..design.parameters.spec_file import read_spec
+        from ..jobs.figures.sized_density import sized_densities
+
+        values["field"], values["curve"] = sized_densities(read_spec(given.sized))
+        values["grading"] = "field"
+    wanted = BandedInfill(**values)
     solid = read_solid(given.part, given.unit)
     with drawn(given.quiet) as progress:
         made = cut_bands(solid, wanted, material_density=density, progress=progress)

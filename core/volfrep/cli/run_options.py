@@ -330,6 +330,12 @@ RUN_OPTIONS = (
         "FILE", DENSITY_GROUP, reads="field file",
     ),
     RunOption(
+        "sized", ("infill",),
+        "the specification that size has written (--write-spec): the density that its radii come "
+        "to, in place of a grading",
+        "FILE.toml", DENSITY_GROUP, reads="sized specification",
+    ),
+    RunOption(
         "column", ("infill",), "of the file's values, where it has several", "NAME", DENSITY_GROUP,
     ),
     RunOption(

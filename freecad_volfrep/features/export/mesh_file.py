@@ -18,6 +18,7 @@ from volfrep.output.form import FORMS
 from volfrep.util.errors import VolfrepError
 
 from .input_files import refuse_inputs
+from .slicer_infill import SlicerInfill, save_project
 from .solver_files import (
     CONTENTS,
     INSTANCES,
@@ -36,8 +37,9 @@ class Format:
     Attributes:
         title: for the file dialog.
         suffix: of the file.
-        content: ``mesh``; ``beams``, ``both`` or ``layers``, which are for lattice infills, as are
-            those of `solver_files.CONTENTS`. Layers are a folder of that name.
+        content: ``mesh``; ``beams``, ``both``, ``layers`` or `FITTED`, which are for lattice
+            infills, as are those of `solver_files.CONTENTS`. Layers are a folder of that name. Of a
+            slicer infill the slicer, ``prusa`` or ``orca``.
     """
 
     title: str
@@ -50,19 +52,35 @@ class Format:
         return f"{translate('VolfrepFormats', self.title)} (*{self.suffix})"
 
 
+#: A mesh within limits, or compensated for the printer (`printer_file.export_for_printer`).
+FITTED = "fitted"
+
+
 def _formats() -> Iterator[Format]:
     for row in FORMS:
         yield Format(row.title, row.suffixes[0], content_of(row))
         if row.name == "step-wireframe":
             yield Format("STEP, instances of joints", row.suffixes[0], INSTANCES)
+    yield Format("STL, within limits or compensated", ".stl", FITTED)
+    yield Format("3MF, within limits or compensated", ".3mf", FITTED)
 
 
 #: In the order of the file dialog's list: the engine's forms of output, and one of FreeCAD's own.
 FORMATS = tuple(_formats())
+#: Those of a slicer infill, by what it calls the slicer.
+PROJECTS = {
+    "PrusaSlicer": Format("3MF, project for PrusaSlicer", ".3mf", "prusa"),
+    "OrcaSlicer, Bambu Studio": Format(
+        "3MF, project for OrcaSlicer and Bambu Studio", ".3mf", "orca"
+    ),
+}
 
 
 def formats_of(obj: App.DocumentObject) -> list[Format]:
-    """The formats in which this mesh object can be written."""
+    """The formats in which this mesh object can be written; of a slicer infill its own first."""
+    if isinstance(getattr(obj, "Proxy", None), SlicerInfill):
+        own = PROJECTS[obj.Slicer]
+        return [own, *(form for form in PROJECTS.values() if form is not own)]
     infill = isinstance(getattr(obj, "Proxy", None), LatticeInfill)
     return [form for form in FORMATS if infill or form.content == "mesh"]
 
@@ -108,9 +126,9 @@ def export_mesh(
     Args:
         obj: a lattice infill, or any mesh object.
         path: the file to write; one that exists is replaced only when the new one is complete.
-        content: ``mesh``; and in a 3MF file of a lattice infill ``beams`` (of the beam lattice
-            extension) or ``both``. Of a lattice infill in .step or .inp, too: one of
-            `solver_files.CONTENTS`.
+        content: ``mesh``, which of a slicer infill is its project, or ``prusa`` or ``orca``; in
+            a 3MF file of a lattice infill ``beams`` (of the beam lattice extension) or
+            ``both``. Of a lattice infill in .step or .inp, too: one of `solver_files.CONTENTS`.
 
     Returns:
         What is to be said of the file: that its mesh is out of date.
@@ -123,6 +141,9 @@ def export_mesh(
     require_engine()
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to export: update it first.")
+    if isinstance(getattr(obj, "Proxy", None), SlicerInfill):
+        save_project(obj, path, "" if content == "mesh" else content)
+        return ()
     refuse_inputs(path, obj)
     if content in CONTENTS:
         write_solver_file(obj, path, content)

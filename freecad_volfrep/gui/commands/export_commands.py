@@ -30,6 +30,7 @@ MODEL_NAMES = marked("VolfrepCommands", "beams", "tetrahedra")
 def export(obj: App.DocumentObject) -> None:
     """Ask for the file's name and write it."""
     from freecad_volfrep.features.export.mesh_file import (
+        FITTED,
         chosen_format,
         estimate_export,
         export_mesh,
@@ -41,7 +42,7 @@ def export(obj: App.DocumentObject) -> None:
     path, chosen = QtWidgets.QFileDialog.getSaveFileName(
         Gui.getMainWindow(),
         translate("VOLFREP_Export", "Export Lattice"),
-        str(folder / f"{file_name(obj.Label)}.stl"),
+        str(folder / f"{file_name(obj.Label)}{next(iter(formats.values())).suffix}"),
         ";;".join(formats),
     )
     if not path:
@@ -49,6 +50,9 @@ def export(obj: App.DocumentObject) -> None:
     path, form = chosen_format(path, formats[chosen], list(formats.values()))
     if form.content == "layers":
         _export_layers(obj, path, form.suffix[1:])
+        return
+    if form.content == FITTED:
+        _export_for_printer(obj, path)
         return
     with errors_shown(box=True):
         estimate = estimate_export(obj, form)
@@ -59,6 +63,19 @@ def export(obj: App.DocumentObject) -> None:
         ):
             return
         export_mesh(obj, path, form.content)
+        tell_written(path)
+
+
+def _export_for_printer(obj: App.DocumentObject, path: str) -> None:
+    """Ask for limits and the printer, write a file that keeps to them, and say what that costs."""
+    from freecad_volfrep.features.export.printer_file import export_for_printer
+    from freecad_volfrep.gui.printing.export_box import ask_for_printer
+
+    wanted = ask_for_printer(obj)
+    if wanted is None:
+        return
+    with errors_shown(box=True):
+        export_for_printer(obj, path, **wanted)
         tell_written(path)
 
 

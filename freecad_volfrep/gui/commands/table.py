@@ -12,6 +12,7 @@ from freecad_volfrep.gui.selection import (
     A_COMPUTED_INFILL_IN_VIEW,
     A_MESH,
     A_SOLID,
+    A_SOLID_OR_SLICER_INFILL,
     AN_INFILL,
     AN_INFILL_AND_FACES,
     AN_INFILL_IN_VIEW,
@@ -41,6 +42,7 @@ from .infill_commands import (
     show_example,
     update_infill,
 )
+from .print_commands import slicer_infill, solid_or_slicer_infill
 from .result_commands import (
     check_print,
     colour_infill,
@@ -126,6 +128,17 @@ _TABLE = (
         "L, C",
         always,
         browse_cells,
+    ),
+    Command(
+        "VOLFREP_SlicerInfill",
+        "slicer_infill.svg",
+        "Slicer Infill",
+        "Let a slicer print the selected solid with an infill that is denser where a field says: "
+        "bands of density that follow the solid, for PrusaSlicer, OrcaSlicer and Bambu Studio",
+        "L, G",
+        solid_or_slicer_infill,
+        slicer_infill,
+        A_SOLID_OR_SLICER_INFILL,
     ),
     Command(
         "VOLFREP_CheckMesh",
@@ -285,7 +298,12 @@ PARTS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("", ("VOLFREP_LatticeInfill", "VOLFREP_Edit", "VOLFREP_Update")),
     (
         QT_TRANSLATE_NOOP("VOLFREP_MakeGroup", "Make"),
-        ("VOLFREP_CellLibrary", "VOLFREP_OpenFaces", "VOLFREP_PreviewOnly"),
+        (
+            "VOLFREP_CellLibrary",
+            "VOLFREP_OpenFaces",
+            "VOLFREP_PreviewOnly",
+            "VOLFREP_SlicerInfill",
+        ),
     ),
     (QT_TRANSLATE_NOOP("VOLFREP_LookGroup", "Look"), ("VOLFREP_SectionView", "VOLFREP_ColourBy")),
     (

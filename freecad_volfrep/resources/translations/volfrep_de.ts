@@ -13,6 +13,10 @@
       <translation>2 Haut</translation>
     </message>
     <message>
+      <source>2 to 8; empty ones are left out</source>
+      <translation>2 bis 8; leere fallen weg</translation>
+    </message>
+    <message>
       <source>3 Grading</source>
       <translation>3 Verlauf</translation>
     </message>
@@ -61,6 +65,10 @@
       <translation>Entlang dieser Richtung der Zelle: 1,0,0 längs ihrer Kanten, 1,1,0 quer über ihre Flächen, 1,1,1 längs ihrer Diagonalen</translation>
     </message>
     <message>
+      <source>Along which the density changes, in the document's coordinates</source>
+      <translation>Entlang derer sich die Dichte ändert, in den Koordinaten des Dokuments</translation>
+    </message>
+    <message>
       <source>Another seed draws other points</source>
       <translation>Ein anderer Startwert zieht andere Punkte</translation>
     </message>
@@ -71,6 +79,18 @@
     <message>
       <source>Axis that the cells lie about</source>
       <translation>Achse, um die die Zellen liegen</translation>
+    </message>
+    <message>
+      <source>Band Densities</source>
+      <translation>Dichten der Bänder</translation>
+    </message>
+    <message>
+      <source>Band Volumes</source>
+      <translation>Volumen der Bänder</translation>
+    </message>
+    <message>
+      <source>Bands</source>
+      <translation>Bänder</translation>
     </message>
     <message>
       <source>Base</source>
@@ -85,6 +105,10 @@
       <translation>Körper</translation>
     </message>
     <message>
+      <source>Bottom Layers</source>
+      <translation>Bodenschichten</translation>
+    </message>
+    <message>
       <source>Boundary</source>
       <translation>Rand</translation>
     </message>
@@ -95,6 +119,10 @@
     <message>
       <source>By how many mm a skeleton or complement is thicker than up to the surface; negative for a thinner one</source>
       <translation>Um wie viele mm ein Gerüst oder sein Gegenstück dicker ist als bis zur Fläche; negativ für dünner</translation>
+    </message>
+    <message>
+      <source>CSV or VTK file of points and values</source>
+      <translation>CSV- oder VTK-Datei mit Punkten und Werten</translation>
     </message>
     <message>
       <source>Cartesian</source>
@@ -201,6 +229,10 @@
       <translation>Kern</translation>
     </message>
     <message>
+      <source>Curve</source>
+      <translation>Kurve</translation>
+    </message>
+    <message>
       <source>Custom</source>
       <translation>Eigene</translation>
     </message>
@@ -221,12 +253,24 @@
       <translation>Dichte</translation>
     </message>
     <message>
+      <source>Density End</source>
+      <translation>Dichte am Ende</translation>
+    </message>
+    <message>
+      <source>Density Start</source>
+      <translation>Dichte am Anfang</translation>
+    </message>
+    <message>
       <source>Density of the material in g/cm3</source>
       <translation>Dichte des Werkstoffs in g/cm3</translation>
     </message>
     <message>
       <source>Density of the points as a formula of s, 0 at the wall and 1 at the deepest place, such as '3 - 2 * s'; empty for an even one</source>
       <translation>Dichte der Punkte als Formel von s, 0 an der Wand und 1 an der tiefsten Stelle, etwa '3 - 2 * s'; leer für eine gleichmäßige</translation>
+    </message>
+    <message>
+      <source>Depth at which the grading ends, for the grading over the depth</source>
+      <translation>Tiefe, in der die Gradierung endet, für die Gradierung über die Tiefe</translation>
     </message>
     <message>
       <source>Depth at which the profile ends</source>
@@ -285,6 +329,10 @@
       <translation>Lochpunkte</translation>
     </message>
     <message>
+      <source>Even Density</source>
+      <translation>Gleichmäßige Dichte</translation>
+    </message>
+    <message>
       <source>Every edge is shared by exactly two triangles</source>
       <translation>Jede Kante gehört zu genau zwei Dreiecken</translation>
     </message>
@@ -295,6 +343,10 @@
     <message>
       <source>Exponential</source>
       <translation>Exponentiell</translation>
+    </message>
+    <message>
+      <source>FEM result, or lattice infill that was sized for loads</source>
+      <translation>FEM-Ergebnis, oder Gitterfüllung, die für Lasten bemessen wurde</translation>
     </message>
     <message>
       <source>Faces</source>
@@ -317,12 +369,36 @@
       <translation>Flächen, um die das Teil bis KeepDistance massiv bleibt, und Körper, deren Raum darin massiv bleibt</translation>
     </message>
     <message>
+      <source>Facets</source>
+      <translation>Facetten</translation>
+    </message>
+    <message>
       <source>Facets along the edge of a cell; 0 to choose it by the deviation</source>
       <translation>Facetten entlang der Kante einer Zelle; 0, um sie nach der Abweichung zu wählen</translation>
     </message>
     <message>
       <source>Field</source>
       <translation>Feld</translation>
+    </message>
+    <message>
+      <source>Field Column</source>
+      <translation>Spalte des Felds</translation>
+    </message>
+    <message>
+      <source>Field File</source>
+      <translation>Feld-Datei</translation>
+    </message>
+    <message>
+      <source>Field Object</source>
+      <translation>Feld-Objekt</translation>
+    </message>
+    <message>
+      <source>Filament</source>
+      <translation>Filament</translation>
+    </message>
+    <message>
+      <source>Filament Volume</source>
+      <translation>Filamentvolumen</translation>
     </message>
     <message>
       <source>File</source>
@@ -343,6 +419,14 @@
     <message>
       <source>Folder</source>
       <translation>Ordner</translation>
+    </message>
+    <message>
+      <source>Follows</source>
+      <translation>Folgt</translation>
+    </message>
+    <message>
+      <source>For which the project is written</source>
+      <translation>Für den das Projekt geschrieben wird</translation>
     </message>
     <message>
       <source>Formula</source>
@@ -401,6 +485,10 @@
       <translation>Intern</translation>
     </message>
     <message>
+      <source>Its density gives the mass</source>
+      <translation>Seine Dichte gibt die Masse</translation>
+    </message>
+    <message>
       <source>Joint Fillet</source>
       <translation>Knotenausrundung</translation>
     </message>
@@ -453,6 +541,10 @@
       <translation>Gitter</translation>
     </message>
     <message>
+      <source>Layer Height</source>
+      <translation>Schichthöhe</translation>
+    </message>
+    <message>
       <source>Layers upon one surface lie on its other side, against its normals</source>
       <translation>Lagen auf einer Fläche liegen auf ihrer anderen Seite, gegen ihre Normalen</translation>
     </message>
@@ -469,8 +561,16 @@
       <translation>Grenzen</translation>
     </message>
     <message>
+      <source>Line Width</source>
+      <translation>Linienbreite</translation>
+    </message>
+    <message>
       <source>Linear</source>
       <translation>Linear</translation>
+    </message>
+    <message>
+      <source>Lines side by side</source>
+      <translation>Linien nebeneinander</translation>
     </message>
     <message>
       <source>Longest Overhang</source>
@@ -519,6 +619,10 @@
     <message>
       <source>Material Price</source>
       <translation>Materialpreis</translation>
+    </message>
+    <message>
+      <source>Mean of the field in each band, percent</source>
+      <translation>Mittel des Felds in jedem Band, Prozent</translation>
     </message>
     <message>
       <source>Mesh</source>
@@ -605,12 +709,32 @@
       <translation>Zahlen, die die Zelle zur Wahl lässt, etwa 'arm = 0.15' bei Re-entrant; 'volfrep cells' sagt, welche</translation>
     </message>
     <message>
+      <source>Of a layer</source>
+      <translation>Einer Schicht</translation>
+    </message>
+    <message>
+      <source>Of all that is extruded</source>
+      <translation>Von allem, was extrudiert wird</translation>
+    </message>
+    <message>
+      <source>Of an extruded line</source>
+      <translation>Einer extrudierten Linie</translation>
+    </message>
+    <message>
       <source>Of the facets that hang over: this object's mesh</source>
       <translation>Der überhängenden Facetten: das Netz dieses Objekts</translation>
     </message>
     <message>
+      <source>Of the filament, g</source>
+      <translation>Des Filaments, g</translation>
+    </message>
+    <message>
       <source>Of the layers of cells upon one surface together</source>
       <translation>Der Lagen von Zellen auf einer Fläche zusammen</translation>
+    </message>
+    <message>
+      <source>Of the mesh: the solid's, then each band's</source>
+      <translation>Des Netzes: die des Körpers, dann die jedes Bands</translation>
     </message>
     <message>
       <source>Of the part</source>
@@ -635,6 +759,10 @@
     <message>
       <source>Of two struts that meet at less than so many degrees the longer one goes</source>
       <translation>Von zwei Stäben, die sich unter weniger Grad treffen, fällt der längere weg</translation>
+    </message>
+    <message>
+      <source>Of walls and solid layers</source>
+      <translation>Von Wänden und vollen Schichten</translation>
     </message>
     <message>
       <source>Open Faces</source>
@@ -667,6 +795,22 @@
     <message>
       <source>Part</source>
       <translation>Bauteil</translation>
+    </message>
+    <message>
+      <source>Pattern</source>
+      <translation>Muster</translation>
+    </message>
+    <message>
+      <source>Percent at the end: at the skin, or where the field is largest</source>
+      <translation>Prozent am Ende: an der Haut, oder wo das Feld am größten ist</translation>
+    </message>
+    <message>
+      <source>Percent at the start: deep inside, or where the field is smallest</source>
+      <translation>Prozent am Anfang: tief innen, oder wo das Feld am kleinsten ist</translation>
+    </message>
+    <message>
+      <source>Percent of x, y and z in mm, such as 10 + z</source>
+      <translation>Prozent aus x, y und z in mm, etwa 10 + z</translation>
     </message>
     <message>
       <source>Pieces Removed</source>
@@ -781,6 +925,10 @@
       <translation>Radius der Ausrundung zwischen Streben, wo sie sich treffen; 0 für keine</translation>
     </message>
     <message>
+      <source>Reach</source>
+      <translation>Reichweite</translation>
+    </message>
+    <message>
       <source>Refused</source>
       <translation>Abgelehnt</translation>
     </message>
@@ -873,6 +1021,10 @@
       <translation>Hautdicken</translation>
     </message>
     <message>
+      <source>Slicer</source>
+      <translation>Slicer</translation>
+    </message>
+    <message>
       <source>Smallest and largest strut radius, mm</source>
       <translation>Kleinster und größter Strebenradius, mm</translation>
     </message>
@@ -883,6 +1035,22 @@
     <message>
       <source>Solid</source>
       <translation>Volumenkörper</translation>
+    </message>
+    <message>
+      <source>Solid Volume</source>
+      <translation>Volles Volumen</translation>
+    </message>
+    <message>
+      <source>Solid ones above what looks down</source>
+      <translation>Volle über dem, was nach unten sieht</translation>
+    </message>
+    <message>
+      <source>Solid ones below what looks up</source>
+      <translation>Volle unter dem, was nach oben sieht</translation>
+    </message>
+    <message>
+      <source>Sparse infill in each band, mm3</source>
+      <translation>Lockere Füllung in jedem Band, mm3</translation>
     </message>
     <message>
       <source>Spherical</source>
@@ -989,6 +1157,10 @@
       <translation>Die aus dem Gitter herauskommt, mm; für Pulver</translation>
     </message>
     <message>
+      <source>That the slicer lays</source>
+      <translation>Das der Slicer legt</translation>
+    </message>
+    <message>
       <source>The .json file of your own unit cell (nodes and struts), for the cell type Custom</source>
       <translation>Die .json-Datei einer eigenen Einheitszelle (Knoten und Streben), für den Zelltyp Custom</translation>
     </message>
@@ -1005,8 +1177,16 @@
       <translation>Die Gitterfüllung, deren Entwürfe es sind</translation>
     </message>
     <message>
+      <source>The one density everywhere that takes the same filament, percent</source>
+      <translation>Die eine Dichte überall, die gleich viel Filament braucht, Prozent</translation>
+    </message>
+    <message>
       <source>The radius varies along it</source>
       <translation>Entlang dieser Richtung ändert sich der Radius</translation>
+    </message>
+    <message>
+      <source>The solid that is printed</source>
+      <translation>Der Körper, der gedruckt wird</translation>
     </message>
     <message>
       <source>The solid to fill: a solid, a Body, a Part, a link to one of these, or a closed mesh</source>
@@ -1047,6 +1227,14 @@
     <message>
       <source>Through-holes of the mesh</source>
       <translation>Durchgangslöcher des Netzes</translation>
+    </message>
+    <message>
+      <source>Told Densities</source>
+      <translation>Genannte Dichten</translation>
+    </message>
+    <message>
+      <source>Top Layers</source>
+      <translation>Deckschichten</translation>
     </message>
     <message>
       <source>Touching</source>
@@ -1169,6 +1357,10 @@
       <translation>Was bestimmt, wie dick die Streben sind: ihr Radius, oder was Gitter oder Teil erreichen sollen; der Radius dafür wird gefunden</translation>
     </message>
     <message>
+      <source>What the density follows</source>
+      <translation>Was die Dichte bestimmt</translation>
+    </message>
+    <message>
       <source>What the figures are of</source>
       <translation>Wovon die Zahlen sind</translation>
     </message>
@@ -1183,6 +1375,10 @@
     <message>
       <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>
       <translation>Woraus das Teil besteht: die Dichte ergibt die Masse, die Steifigkeit geht in die Dateien für Löser</translation>
+    </message>
+    <message>
+      <source>What the slicer is told of each, so that it lays as much, percent</source>
+      <translation>Was dem Slicer von jedem gesagt wird, damit er so viel legt, Prozent</translation>
     </message>
     <message>
       <source>What to know about this result</source>
@@ -1209,6 +1405,10 @@
       <translation>Wo die Farbskala endet</translation>
     </message>
     <message>
+      <source>Whether the bands are those of these values</source>
+      <translation>Ob die Bänder zu diesen Werten gehören</translation>
+    </message>
+    <message>
       <source>Whether the mesh fits the properties, or why not</source>
       <translation>Ob das Netz den Eigenschaften entspricht, oder warum nicht</translation>
     </message>
@@ -1219,6 +1419,10 @@
     <message>
       <source>Which values of the file or the FEM result; empty for the only ones, or for vonMises</source>
       <translation>Welche Werte der Datei oder des FEM-Ergebnisses; leer für die einzigen, oder für vonMises</translation>
+    </message>
+    <message>
+      <source>Which values of the file or the FEM result; empty for the usual ones</source>
+      <translation>Welche Werte der Datei oder des FEM-Ergebnisses; leer für die üblichen</translation>
     </message>
     <message>
       <source>Whole</source>
@@ -1259,6 +1463,10 @@
     <message>
       <source>trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what reaches it</source>
       <translation>Beschnitt (trim): das Gitter wird an der Wand geschnitten; ganz (whole): Zellen bleiben ganz, und eine Haut verbindet, was sie erreicht</translation>
+    </message>
+    <message>
+      <source>value:percent pairs in place of start and end, such as 0:10, 80:60</source>
+      <translation>Paare Wert:Prozent statt Anfang und Ende, etwa 0:10, 80:60</translation>
     </message>
   </context>
   <context>
@@ -1474,6 +1682,17 @@
     <message>
       <source>Pick what holds and loads the selected lattice infill, or solid, and find the radii of its struts: least mass within limits, or most stiffness at a mass</source>
       <translation>Wählen, was die gewählte Gitterfüllung oder den Körper hält und belastet, und die Radien der Streben finden: geringste Masse innerhalb von Grenzen oder größte Steifigkeit bei einer Masse</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_SlicerInfill</name>
+    <message>
+      <source>Let a slicer print the selected solid with an infill that is denser where a field says: bands of density that follow the solid, for PrusaSlicer, OrcaSlicer and Bambu Studio</source>
+      <translation>Den ausgewählten Körper von einem Slicer mit einer Füllung drucken lassen, die dichter ist, wo ein Feld es sagt: Bänder der Dichte, die dem Körper folgen, für PrusaSlicer, OrcaSlicer und Bambu Studio</translation>
+    </message>
+    <message>
+      <source>Slicer Infill</source>
+      <translation>Slicer-Füllung</translation>
     </message>
   </context>
   <context>
@@ -1885,6 +2104,10 @@
       <translation>Einen oder mehrere Körper auswählen: Körper, Part, Verknüpfung dazu oder geschlossenes Netz.</translation>
     </message>
     <message>
+      <source>Select one solid, or one slicer infill.</source>
+      <translation>Einen Körper oder eine Slicer-Füllung auswählen.</translation>
+    </message>
+    <message>
       <source>There is no lattice infill in this document: make one first.</source>
       <translation>In diesem Dokument ist keine Gitterfüllung: erst eine erzeugen.</translation>
     </message>
@@ -2058,6 +2281,18 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>3MF, Netz und Balken</translation>
     </message>
     <message>
+      <source>3MF, project for OrcaSlicer and Bambu Studio</source>
+      <translation>3MF, Projekt für OrcaSlicer und Bambu Studio</translation>
+    </message>
+    <message>
+      <source>3MF, project for PrusaSlicer</source>
+      <translation>3MF, Projekt für PrusaSlicer</translation>
+    </message>
+    <message>
+      <source>3MF, within limits or compensated</source>
+      <translation>3MF, in Grenzen oder kompensiert</translation>
+    </message>
+    <message>
       <source>CalculiX, beams</source>
       <translation>CalculiX, Balken</translation>
     </message>
@@ -2112,6 +2347,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>STL</source>
       <translation>STL</translation>
+    </message>
+    <message>
+      <source>STL, within limits or compensated</source>
+      <translation>STL, in Grenzen oder kompensiert</translation>
     </message>
   </context>
   <context>
@@ -2242,8 +2481,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>FEM-Analyse von {label}</translation>
     </message>
     <message>
+      <source>File of {label}</source>
+      <translation>Datei von {label}</translation>
+    </message>
+    <message>
       <source>Filling {label}</source>
       <translation>{label} wird gefüllt</translation>
+    </message>
+    <message>
+      <source>Infill bands of {label}</source>
+      <translation>Füllungsbänder von {label}</translation>
     </message>
     <message>
       <source>Instances of {label}</source>
@@ -2556,6 +2803,61 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>automatic</source>
       <translation>automatisch</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepPrinterFile</name>
+    <message>
+      <source>As drawn</source>
+      <translation>Wie gezeichnet</translation>
+    </message>
+    <message>
+      <source>Diameters: {source}. Yours may differ: print coupons.</source>
+      <translation>Durchmesser: {source}. Ihre können anders sein: Proben drucken.</translation>
+    </message>
+    <message>
+      <source>Drawn for the printer</source>
+      <translation>Für den Drucker gezeichnet</translation>
+    </message>
+    <message>
+      <source>Largest file</source>
+      <translation>Größte Datei</translation>
+    </message>
+    <message>
+      <source>Limits: {source}, read {date}; they may have changed.</source>
+      <translation>Grenzen: {source}, gelesen {date}; sie können sich geändert haben.</translation>
+    </message>
+    <message>
+      <source>Measured diameters (*.csv)</source>
+      <translation>Gemessene Durchmesser (*.csv)</translation>
+    </message>
+    <message>
+      <source>Most triangles</source>
+      <translation>Höchstens Dreiecke</translation>
+    </message>
+    <message>
+      <source>My own limits</source>
+      <translation>Eigene Grenzen</translation>
+    </message>
+    <message>
+      <source>My own measurements</source>
+      <translation>Eigene Messungen</translation>
+    </message>
+    <message>
+      <source>Service</source>
+      <translation>Dienst</translation>
+    </message>
+    <message>
+      <source>Table</source>
+      <translation>Tabelle</translation>
+    </message>
+    <message>
+      <source>The mesh has {triangles} triangles, {size:.3g} MB as STL.</source>
+      <translation>Das Netz hat {triangles} Dreiecke, als STL {size:.3g} MB.</translation>
+    </message>
+    <message>
+      <source>no limit</source>
+      <translation>keine Grenze</translation>
     </message>
   </context>
   <context>
@@ -3379,6 +3681,149 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>stress</source>
       <translation>Spannung</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepSlicer</name>
+    <message>
+      <source>Along</source>
+      <translation>Entlang</translation>
+    </message>
+    <message>
+      <source>Bands</source>
+      <translation>Bänder</translation>
+    </message>
+    <message>
+      <source>Bottom layers</source>
+      <translation>Bodenschichten</translation>
+    </message>
+    <message>
+      <source>Density</source>
+      <translation>Dichte</translation>
+    </message>
+    <message>
+      <source>Depth, dense core</source>
+      <translation>Tiefe, Kern dicht</translation>
+    </message>
+    <message>
+      <source>Depth, dense skin</source>
+      <translation>Tiefe, Haut dicht</translation>
+    </message>
+    <message>
+      <source>Direction</source>
+      <translation>Richtung</translation>
+    </message>
+    <message>
+      <source>Down to depth</source>
+      <translation>Bis Tiefe</translation>
+    </message>
+    <message>
+      <source>FEM result</source>
+      <translation>FEM-Ergebnis</translation>
+    </message>
+    <message>
+      <source>Field file</source>
+      <translation>Feld-Datei</translation>
+    </message>
+    <message>
+      <source>Fields (*.csv *.txt *.vtu *.vtk)</source>
+      <translation>Felder (*.csv *.txt *.vtu *.vtk)</translation>
+    </message>
+    <message>
+      <source>Filament</source>
+      <translation>Filament</translation>
+    </message>
+    <message>
+      <source>Filament: {volume} mm³, {mass:.4g} g, of which {solid} mm³ are walls and solid layers. Everywhere {even:.3g} % would take the same.</source>
+      <translation>Filament: {volume} mm³, {mass:.4g} g, davon {solid} mm³ Wände und volle Schichten. Überall {even:.3g} % brauchte gleich viel.</translation>
+    </message>
+    <message>
+      <source>File</source>
+      <translation>Datei</translation>
+    </message>
+    <message>
+      <source>Follows</source>
+      <translation>Folgt</translation>
+    </message>
+    <message>
+      <source>Formula</source>
+      <translation>Formel</translation>
+    </message>
+    <message>
+      <source>From</source>
+      <translation>Von</translation>
+    </message>
+    <message>
+      <source>Layer height</source>
+      <translation>Schichthöhe</translation>
+    </message>
+    <message>
+      <source>Line width</source>
+      <translation>Linienbreite</translation>
+    </message>
+    <message>
+      <source>Object</source>
+      <translation>Objekt</translation>
+    </message>
+    <message>
+      <source>Pattern</source>
+      <translation>Muster</translation>
+    </message>
+    <message>
+      <source>Percent of x, y, z</source>
+      <translation>Prozent aus x, y, z</translation>
+    </message>
+    <message>
+      <source>Print</source>
+      <translation>Druck</translation>
+    </message>
+    <message>
+      <source>Quantity</source>
+      <translation>Größe</translation>
+    </message>
+    <message>
+      <source>Show Bands</source>
+      <translation>Bänder zeigen</translation>
+    </message>
+    <message>
+      <source>Sized lattice</source>
+      <translation>Bemessenes Gitter</translation>
+    </message>
+    <message>
+      <source>Slicer</source>
+      <translation>Slicer</translation>
+    </message>
+    <message>
+      <source>To</source>
+      <translation>Bis</translation>
+    </message>
+    <message>
+      <source>Top layers</source>
+      <translation>Deckschichten</translation>
+    </message>
+    <message>
+      <source>Walls</source>
+      <translation>Wände</translation>
+    </message>
+    <message>
+      <source>band</source>
+      <translation>Band</translation>
+    </message>
+    <message>
+      <source>density</source>
+      <translation>Dichte</translation>
+    </message>
+    <message>
+      <source>infill</source>
+      <translation>Füllung</translation>
+    </message>
+    <message>
+      <source>told as</source>
+      <translation>genannt als</translation>
+    </message>
+    <message>
+      <source>value:percent</source>
+      <translation>Wert:Prozent</translation>
     </message>
   </context>
   <context>

@@ -13,6 +13,10 @@
       <translation>2 Guscio</translation>
     </message>
     <message>
+      <source>2 to 8; empty ones are left out</source>
+      <translation>Da 2 a 8; quelle vuote si omettono</translation>
+    </message>
+    <message>
       <source>3 Grading</source>
       <translation>3 Gradazione</translation>
     </message>
@@ -61,6 +65,10 @@
       <translation>Lungo questa direzione della cella: 1,0,0 lungo gli spigoli, 1,1,0 attraverso le facce, 1,1,1 lungo le diagonali</translation>
     </message>
     <message>
+      <source>Along which the density changes, in the document's coordinates</source>
+      <translation>Lungo la quale la densità cambia, nelle coordinate del documento</translation>
+    </message>
+    <message>
       <source>Another seed draws other points</source>
       <translation>Un altro seme estrae altri punti</translation>
     </message>
@@ -71,6 +79,18 @@
     <message>
       <source>Axis that the cells lie about</source>
       <translation>Asse attorno al quale stanno le celle</translation>
+    </message>
+    <message>
+      <source>Band Densities</source>
+      <translation>Densità delle bande</translation>
+    </message>
+    <message>
+      <source>Band Volumes</source>
+      <translation>Volumi delle bande</translation>
+    </message>
+    <message>
+      <source>Bands</source>
+      <translation>Bande</translation>
     </message>
     <message>
       <source>Base</source>
@@ -85,6 +105,10 @@
       <translation>Corpi</translation>
     </message>
     <message>
+      <source>Bottom Layers</source>
+      <translation>Strati inferiori</translation>
+    </message>
+    <message>
       <source>Boundary</source>
       <translation>Bordo</translation>
     </message>
@@ -95,6 +119,10 @@
     <message>
       <source>By how many mm a skeleton or complement is thicker than up to the surface; negative for a thinner one</source>
       <translation>Di quanti mm uno scheletro o il suo complemento supera la superficie; negativo per uno più sottile</translation>
+    </message>
+    <message>
+      <source>CSV or VTK file of points and values</source>
+      <translation>File CSV o VTK di punti e valori</translation>
     </message>
     <message>
       <source>Cartesian</source>
@@ -201,6 +229,10 @@
       <translation>Nucleo</translation>
     </message>
     <message>
+      <source>Curve</source>
+      <translation>Curva</translation>
+    </message>
+    <message>
       <source>Custom</source>
       <translation>Personalizzata</translation>
     </message>
@@ -221,12 +253,24 @@
       <translation>Densità</translation>
     </message>
     <message>
+      <source>Density End</source>
+      <translation>Densità finale</translation>
+    </message>
+    <message>
+      <source>Density Start</source>
+      <translation>Densità iniziale</translation>
+    </message>
+    <message>
       <source>Density of the material in g/cm3</source>
       <translation>Densità del materiale in g/cm3</translation>
     </message>
     <message>
       <source>Density of the points as a formula of s, 0 at the wall and 1 at the deepest place, such as '3 - 2 * s'; empty for an even one</source>
       <translation>Densità dei punti come formula di s, 0 alla parete e 1 nel punto più profondo, come '3 - 2 * s'; vuota se uniforme</translation>
+    </message>
+    <message>
+      <source>Depth at which the grading ends, for the grading over the depth</source>
+      <translation>Profondità a cui finisce la gradazione, per la gradazione in profondità</translation>
     </message>
     <message>
       <source>Depth at which the profile ends</source>
@@ -285,6 +329,10 @@
       <translation>Punti dei fori</translation>
     </message>
     <message>
+      <source>Even Density</source>
+      <translation>Densità uniforme</translation>
+    </message>
+    <message>
       <source>Every edge is shared by exactly two triangles</source>
       <translation>Ogni spigolo appartiene a due triangoli esatti</translation>
     </message>
@@ -295,6 +343,10 @@
     <message>
       <source>Exponential</source>
       <translation>Esponenziale</translation>
+    </message>
+    <message>
+      <source>FEM result, or lattice infill that was sized for loads</source>
+      <translation>Risultato FEM, o riempimento reticolare dimensionato per carichi</translation>
     </message>
     <message>
       <source>Faces</source>
@@ -317,12 +369,36 @@
       <translation>Facce attorno alle quali il pezzo resta pieno, fino a KeepDistance, e solidi il cui spazio in esso resta pieno</translation>
     </message>
     <message>
+      <source>Facets</source>
+      <translation>Facce</translation>
+    </message>
+    <message>
       <source>Facets along the edge of a cell; 0 to choose it by the deviation</source>
       <translation>Faccette lungo lo spigolo di una cella; 0 per sceglierle con lo scostamento</translation>
     </message>
     <message>
       <source>Field</source>
       <translation>Campo</translation>
+    </message>
+    <message>
+      <source>Field Column</source>
+      <translation>Colonna del campo</translation>
+    </message>
+    <message>
+      <source>Field File</source>
+      <translation>File del campo</translation>
+    </message>
+    <message>
+      <source>Field Object</source>
+      <translation>Oggetto del campo</translation>
+    </message>
+    <message>
+      <source>Filament</source>
+      <translation>Filamento</translation>
+    </message>
+    <message>
+      <source>Filament Volume</source>
+      <translation>Volume del filamento</translation>
     </message>
     <message>
       <source>File</source>
@@ -343,6 +419,14 @@
     <message>
       <source>Folder</source>
       <translation>Cartella</translation>
+    </message>
+    <message>
+      <source>Follows</source>
+      <translation>Segue</translation>
+    </message>
+    <message>
+      <source>For which the project is written</source>
+      <translation>Per cui si scrive il progetto</translation>
     </message>
     <message>
       <source>Formula</source>
@@ -401,6 +485,10 @@
       <translation>Interno</translation>
     </message>
     <message>
+      <source>Its density gives the mass</source>
+      <translation>La sua densità dà la massa</translation>
+    </message>
+    <message>
       <source>Joint Fillet</source>
       <translation>Raccordo dei nodi</translation>
     </message>
@@ -453,6 +541,10 @@
       <translation>Reticolo</translation>
     </message>
     <message>
+      <source>Layer Height</source>
+      <translation>Altezza dello strato</translation>
+    </message>
+    <message>
       <source>Layers upon one surface lie on its other side, against its normals</source>
       <translation>Gli strati su una superficie stanno dall'altra parte, contro le sue normali</translation>
     </message>
@@ -469,8 +561,16 @@
       <translation>Limiti</translation>
     </message>
     <message>
+      <source>Line Width</source>
+      <translation>Larghezza della linea</translation>
+    </message>
+    <message>
       <source>Linear</source>
       <translation>Lineare</translation>
+    </message>
+    <message>
+      <source>Lines side by side</source>
+      <translation>Linee affiancate</translation>
     </message>
     <message>
       <source>Longest Overhang</source>
@@ -519,6 +619,10 @@
     <message>
       <source>Material Price</source>
       <translation>Prezzo del materiale</translation>
+    </message>
+    <message>
+      <source>Mean of the field in each band, percent</source>
+      <translation>Media del campo in ogni banda, percento</translation>
     </message>
     <message>
       <source>Mesh</source>
@@ -605,12 +709,32 @@
       <translation>Numeri che la cella lascia scegliere, come 'arm = 0.15' di Re-entrant; 'volfrep cells' dice quali</translation>
     </message>
     <message>
+      <source>Of a layer</source>
+      <translation>Di uno strato</translation>
+    </message>
+    <message>
+      <source>Of all that is extruded</source>
+      <translation>Di tutto ciò che viene estruso</translation>
+    </message>
+    <message>
+      <source>Of an extruded line</source>
+      <translation>Di una linea estrusa</translation>
+    </message>
+    <message>
       <source>Of the facets that hang over: this object's mesh</source>
       <translation>Delle faccette a sbalzo: la mesh di questo oggetto</translation>
     </message>
     <message>
+      <source>Of the filament, g</source>
+      <translation>Del filamento, g</translation>
+    </message>
+    <message>
       <source>Of the layers of cells upon one surface together</source>
       <translation>Di tutti gli strati di celle su una superficie</translation>
+    </message>
+    <message>
+      <source>Of the mesh: the solid's, then each band's</source>
+      <translation>Della mesh: quelle del solido, poi di ogni banda</translation>
     </message>
     <message>
       <source>Of the part</source>
@@ -635,6 +759,10 @@
     <message>
       <source>Of two struts that meet at less than so many degrees the longer one goes</source>
       <translation>Di due aste che si incontrano a meno di tanti gradi la più lunga viene tolta</translation>
+    </message>
+    <message>
+      <source>Of walls and solid layers</source>
+      <translation>Di pareti e strati pieni</translation>
     </message>
     <message>
       <source>Open Faces</source>
@@ -667,6 +795,22 @@
     <message>
       <source>Part</source>
       <translation>Parte</translation>
+    </message>
+    <message>
+      <source>Pattern</source>
+      <translation>Motivo</translation>
+    </message>
+    <message>
+      <source>Percent at the end: at the skin, or where the field is largest</source>
+      <translation>Percento alla fine: alla pelle, o dove il campo è massimo</translation>
+    </message>
+    <message>
+      <source>Percent at the start: deep inside, or where the field is smallest</source>
+      <translation>Percento all'inizio: in profondità, o dove il campo è minimo</translation>
+    </message>
+    <message>
+      <source>Percent of x, y and z in mm, such as 10 + z</source>
+      <translation>Percento da x, y e z in mm, come 10 + z</translation>
     </message>
     <message>
       <source>Pieces Removed</source>
@@ -781,6 +925,10 @@
       <translation>Raggio del raccordo tra le aste dove si incontrano; 0 per nessuno</translation>
     </message>
     <message>
+      <source>Reach</source>
+      <translation>Portata</translation>
+    </message>
+    <message>
       <source>Refused</source>
       <translation>Rifiutati</translation>
     </message>
@@ -873,6 +1021,10 @@
       <translation>Spessori della pelle</translation>
     </message>
     <message>
+      <source>Slicer</source>
+      <translation>Slicer</translation>
+    </message>
+    <message>
       <source>Smallest and largest strut radius, mm</source>
       <translation>Raggio minimo e massimo delle aste, mm</translation>
     </message>
@@ -883,6 +1035,22 @@
     <message>
       <source>Solid</source>
       <translation>Solido</translation>
+    </message>
+    <message>
+      <source>Solid Volume</source>
+      <translation>Volume pieno</translation>
+    </message>
+    <message>
+      <source>Solid ones above what looks down</source>
+      <translation>Pieni sopra ciò che guarda in basso</translation>
+    </message>
+    <message>
+      <source>Solid ones below what looks up</source>
+      <translation>Pieni sotto ciò che guarda in alto</translation>
+    </message>
+    <message>
+      <source>Sparse infill in each band, mm3</source>
+      <translation>Riempimento rado in ogni banda, mm3</translation>
     </message>
     <message>
       <source>Spherical</source>
@@ -989,6 +1157,10 @@
       <translation>Che esce dal reticolo, mm; per la polvere</translation>
     </message>
     <message>
+      <source>That the slicer lays</source>
+      <translation>Che lo slicer depone</translation>
+    </message>
+    <message>
       <source>The .json file of your own unit cell (nodes and struts), for the cell type Custom</source>
       <translation>Il file .json di una cella propria (nodi e aste), per il tipo di cella Custom</translation>
     </message>
@@ -1005,8 +1177,16 @@
       <translation>Il riempimento reticolare di cui questi sono i progetti</translation>
     </message>
     <message>
+      <source>The one density everywhere that takes the same filament, percent</source>
+      <translation>La densità unica ovunque che richiede lo stesso filamento, percento</translation>
+    </message>
+    <message>
       <source>The radius varies along it</source>
       <translation>Il raggio varia lungo di essa</translation>
+    </message>
+    <message>
+      <source>The solid that is printed</source>
+      <translation>Il solido da stampare</translation>
     </message>
     <message>
       <source>The solid to fill: a solid, a Body, a Part, a link to one of these, or a closed mesh</source>
@@ -1047,6 +1227,14 @@
     <message>
       <source>Through-holes of the mesh</source>
       <translation>Fori passanti della mesh</translation>
+    </message>
+    <message>
+      <source>Told Densities</source>
+      <translation>Densità comunicate</translation>
+    </message>
+    <message>
+      <source>Top Layers</source>
+      <translation>Strati superiori</translation>
     </message>
     <message>
       <source>Touching</source>
@@ -1169,6 +1357,10 @@
       <translation>Che cosa determina lo spessore delle aste: il loro raggio, o ciò che reticolo o pezzo devono raggiungere; il raggio adatto viene trovato</translation>
     </message>
     <message>
+      <source>What the density follows</source>
+      <translation>Ciò che la densità segue</translation>
+    </message>
+    <message>
       <source>What the figures are of</source>
       <translation>A che cosa si riferiscono i valori</translation>
     </message>
@@ -1183,6 +1375,10 @@
     <message>
       <source>What the part is made of: its density gives the mass, its stiffness goes into solver decks</source>
       <translation>Di che cosa è fatto il pezzo: la densità dà la massa, la rigidezza va nei file per i solutori</translation>
+    </message>
+    <message>
+      <source>What the slicer is told of each, so that it lays as much, percent</source>
+      <translation>Ciò che si dice allo slicer di ciascuna, perché deponga altrettanto, percento</translation>
     </message>
     <message>
       <source>What to know about this result</source>
@@ -1209,6 +1405,10 @@
       <translation>Dove finisce la scala dei colori</translation>
     </message>
     <message>
+      <source>Whether the bands are those of these values</source>
+      <translation>Se le bande sono quelle di questi valori</translation>
+    </message>
+    <message>
       <source>Whether the mesh fits the properties, or why not</source>
       <translation>Se la mesh corrisponde alle proprietà, o perché no</translation>
     </message>
@@ -1219,6 +1419,10 @@
     <message>
       <source>Which values of the file or the FEM result; empty for the only ones, or for vonMises</source>
       <translation>Quali valori del file o del risultato FEM; vuoto per gli unici, o per vonMises</translation>
+    </message>
+    <message>
+      <source>Which values of the file or the FEM result; empty for the usual ones</source>
+      <translation>Quali valori del file o del risultato FEM; vuoto per quelli usuali</translation>
     </message>
     <message>
       <source>Whole</source>
@@ -1259,6 +1463,10 @@
     <message>
       <source>trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what reaches it</source>
       <translation>taglio (trim): il reticolo è tagliato alla parete; intere (whole): le celle restano intere, e un guscio unisce ciò che lo raggiunge</translation>
+    </message>
+    <message>
+      <source>value:percent pairs in place of start and end, such as 0:10, 80:60</source>
+      <translation>Coppie valore:percento al posto di inizio e fine, come 0:10, 80:60</translation>
     </message>
   </context>
   <context>
@@ -1474,6 +1682,17 @@
     <message>
       <source>Pick what holds and loads the selected lattice infill, or solid, and find the radii of its struts: least mass within limits, or most stiffness at a mass</source>
       <translation>Scegliere che cosa vincola e carica il riempimento o il solido selezionato, e trovare i raggi delle aste: massa minima entro i limiti, o massima rigidezza a una data massa</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_SlicerInfill</name>
+    <message>
+      <source>Let a slicer print the selected solid with an infill that is denser where a field says: bands of density that follow the solid, for PrusaSlicer, OrcaSlicer and Bambu Studio</source>
+      <translation>Fa stampare a uno slicer il solido selezionato con un riempimento più denso dove lo dice un campo: bande di densità che seguono il solido, per PrusaSlicer, OrcaSlicer e Bambu Studio</translation>
+    </message>
+    <message>
+      <source>Slicer Infill</source>
+      <translation>Riempimento per slicer</translation>
     </message>
   </context>
   <context>
@@ -1885,6 +2104,10 @@
       <translation>Selezionare uno o più solidi: un Corpo, una Parte, un collegamento, una mesh chiusa.</translation>
     </message>
     <message>
+      <source>Select one solid, or one slicer infill.</source>
+      <translation>Selezionare un solido, o un riempimento per slicer.</translation>
+    </message>
+    <message>
       <source>There is no lattice infill in this document: make one first.</source>
       <translation>In questo documento non c'è un riempimento reticolare: crearne prima uno.</translation>
     </message>
@@ -2058,6 +2281,18 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>3MF, mesh e travi</translation>
     </message>
     <message>
+      <source>3MF, project for OrcaSlicer and Bambu Studio</source>
+      <translation>3MF, progetto per OrcaSlicer e Bambu Studio</translation>
+    </message>
+    <message>
+      <source>3MF, project for PrusaSlicer</source>
+      <translation>3MF, progetto per PrusaSlicer</translation>
+    </message>
+    <message>
+      <source>3MF, within limits or compensated</source>
+      <translation>3MF, entro limiti o compensato</translation>
+    </message>
+    <message>
       <source>CalculiX, beams</source>
       <translation>CalculiX, travi</translation>
     </message>
@@ -2112,6 +2347,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>STL</source>
       <translation>STL</translation>
+    </message>
+    <message>
+      <source>STL, within limits or compensated</source>
+      <translation>STL, entro limiti o compensato</translation>
     </message>
   </context>
   <context>
@@ -2242,8 +2481,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Analisi FEM di {label}</translation>
     </message>
     <message>
+      <source>File of {label}</source>
+      <translation>File di {label}</translation>
+    </message>
+    <message>
       <source>Filling {label}</source>
       <translation>Riempimento di {label}</translation>
+    </message>
+    <message>
+      <source>Infill bands of {label}</source>
+      <translation>Bande di riempimento di {label}</translation>
     </message>
     <message>
       <source>Instances of {label}</source>
@@ -2556,6 +2803,61 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>automatic</source>
       <translation>automatico</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepPrinterFile</name>
+    <message>
+      <source>As drawn</source>
+      <translation>Come disegnato</translation>
+    </message>
+    <message>
+      <source>Diameters: {source}. Yours may differ: print coupons.</source>
+      <translation>Diametri: {source}. I vostri possono differire: stampate provini.</translation>
+    </message>
+    <message>
+      <source>Drawn for the printer</source>
+      <translation>Disegnato per la stampante</translation>
+    </message>
+    <message>
+      <source>Largest file</source>
+      <translation>File più grande</translation>
+    </message>
+    <message>
+      <source>Limits: {source}, read {date}; they may have changed.</source>
+      <translation>Limiti: {source}, letti {date}; possono essere cambiati.</translation>
+    </message>
+    <message>
+      <source>Measured diameters (*.csv)</source>
+      <translation>Diametri misurati (*.csv)</translation>
+    </message>
+    <message>
+      <source>Most triangles</source>
+      <translation>Triangoli al massimo</translation>
+    </message>
+    <message>
+      <source>My own limits</source>
+      <translation>Limiti propri</translation>
+    </message>
+    <message>
+      <source>My own measurements</source>
+      <translation>Misure proprie</translation>
+    </message>
+    <message>
+      <source>Service</source>
+      <translation>Servizio</translation>
+    </message>
+    <message>
+      <source>Table</source>
+      <translation>Tabella</translation>
+    </message>
+    <message>
+      <source>The mesh has {triangles} triangles, {size:.3g} MB as STL.</source>
+      <translation>La mesh ha {triangles} triangoli, {size:.3g} MB come STL.</translation>
+    </message>
+    <message>
+      <source>no limit</source>
+      <translation>nessun limite</translation>
     </message>
   </context>
   <context>
@@ -3379,6 +3681,149 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>stress</source>
       <translation>tensione</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepSlicer</name>
+    <message>
+      <source>Along</source>
+      <translation>Lungo</translation>
+    </message>
+    <message>
+      <source>Bands</source>
+      <translation>Bande</translation>
+    </message>
+    <message>
+      <source>Bottom layers</source>
+      <translation>Strati inferiori</translation>
+    </message>
+    <message>
+      <source>Density</source>
+      <translation>Densità</translation>
+    </message>
+    <message>
+      <source>Depth, dense core</source>
+      <translation>Profondità, nucleo denso</translation>
+    </message>
+    <message>
+      <source>Depth, dense skin</source>
+      <translation>Profondità, pelle densa</translation>
+    </message>
+    <message>
+      <source>Direction</source>
+      <translation>Direzione</translation>
+    </message>
+    <message>
+      <source>Down to depth</source>
+      <translation>Fino a profondità</translation>
+    </message>
+    <message>
+      <source>FEM result</source>
+      <translation>Risultato FEM</translation>
+    </message>
+    <message>
+      <source>Field file</source>
+      <translation>File di campo</translation>
+    </message>
+    <message>
+      <source>Fields (*.csv *.txt *.vtu *.vtk)</source>
+      <translation>Campi (*.csv *.txt *.vtu *.vtk)</translation>
+    </message>
+    <message>
+      <source>Filament</source>
+      <translation>Filamento</translation>
+    </message>
+    <message>
+      <source>Filament: {volume} mm³, {mass:.4g} g, of which {solid} mm³ are walls and solid layers. Everywhere {even:.3g} % would take the same.</source>
+      <translation>Filamento: {volume} mm³, {mass:.4g} g, di cui {solid} mm³ di pareti e strati pieni. Ovunque {even:.3g} % richiederebbe lo stesso.</translation>
+    </message>
+    <message>
+      <source>File</source>
+      <translation>File</translation>
+    </message>
+    <message>
+      <source>Follows</source>
+      <translation>Segue</translation>
+    </message>
+    <message>
+      <source>Formula</source>
+      <translation>Formula</translation>
+    </message>
+    <message>
+      <source>From</source>
+      <translation>Da</translation>
+    </message>
+    <message>
+      <source>Layer height</source>
+      <translation>Altezza strato</translation>
+    </message>
+    <message>
+      <source>Line width</source>
+      <translation>Larghezza linea</translation>
+    </message>
+    <message>
+      <source>Object</source>
+      <translation>Oggetto</translation>
+    </message>
+    <message>
+      <source>Pattern</source>
+      <translation>Motivo</translation>
+    </message>
+    <message>
+      <source>Percent of x, y, z</source>
+      <translation>Percento da x, y, z</translation>
+    </message>
+    <message>
+      <source>Print</source>
+      <translation>Stampa</translation>
+    </message>
+    <message>
+      <source>Quantity</source>
+      <translation>Grandezza</translation>
+    </message>
+    <message>
+      <source>Show Bands</source>
+      <translation>Mostra bande</translation>
+    </message>
+    <message>
+      <source>Sized lattice</source>
+      <translation>Reticolo dimensionato</translation>
+    </message>
+    <message>
+      <source>Slicer</source>
+      <translation>Slicer</translation>
+    </message>
+    <message>
+      <source>To</source>
+      <translation>A</translation>
+    </message>
+    <message>
+      <source>Top layers</source>
+      <translation>Strati superiori</translation>
+    </message>
+    <message>
+      <source>Walls</source>
+      <translation>Pareti</translation>
+    </message>
+    <message>
+      <source>band</source>
+      <translation>banda</translation>
+    </message>
+    <message>
+      <source>density</source>
+      <translation>densità</translation>
+    </message>
+    <message>
+      <source>infill</source>
+      <translation>riempimento</translation>
+    </message>
+    <message>
+      <source>told as</source>
+      <translation>comunicata</translation>
+    </message>
+    <message>
+      <source>value:percent</source>
+      <translation>valore:percento</translation>
     </message>
   </context>
   <context>

@@ -15,7 +15,8 @@ from scipy.sparse.linalg import spsolve
 import samples
 from command import run
 from slicers import WIDTH, prusa_info, prusa_project_volume, prusa_slicer
-from volfrep import VolfrepError, slicer_infill
+from volfrep import LatticeSpec, VolfrepError, slicer_infill
+from volfrep.design.cells import find_cell
 from volfrep.io.write.stl import write_stl
 from volfrep.mesh.booleans import as_manifold
 from volfrep.spatial.rays import inside_points
@@ -253,3 +254,38 @@ def test_a_beam_with_bands_is_stiffer_than_one_of_even_infill_of_the_same_filame
 
     stiff, plain = (bending_stiffness(beam, printed(one), 2.0, 1.53) for one in (made, even))
     assert stiff > 1.3 * plain
+
+
+def sized_spec(folder: Path) -> Path:
+    """A specification as sizing writes it: radii from 0.5 to 1.5 mm along the box."""
+    x = np.linspace(0.0, 60.0, 25)
+    lines = [f"{at},20,10,{0.5 + at / 60.0}" for at in x]
+    (folder / "radii.csv").write_text("\n".join(["x,y,z,radius", *lines]))
+    path = folder / "sized.toml"
+    path.write_text(
+        'cell = "BCC"\ncell_size = 10\nstrut_radius = 1\nradius_grading = "field"\n'
+        'radius_field = "radii.csv"\nradius_curve = "0.5:0.5,1.5:1.5"\n'
+    )
+    return path
+
+
+def test_the_density_that_sizing_wants_is_that_of_its_radii(tmp_path):
+    path = sized_spec(tmp_path)
+    made = slicer_infill(BOX, sized=path, bands=4, **BARE)
+    thinnest, thickest = made.bands[0].mean, made.bands[-1].mean
+    # A BCC cell of r = 0.05 L is 6.5 % solid, one of 0.15 L 49 %.
+    assert thinnest == pytest.approx(11.0, abs=3.0)
+    assert thickest == pytest.approx(43.0, abs=4.0)
+    even = slicer_infill(BOX, grading="direction", direction=(1, 0, 0), start=6.5, end=49.0, **BARE)
+    assert made.mean_density < even.mean_density, "it grows faster than the radius"
+    plain = LatticeSpec(find_cell("BCC"), 10.0, 1.0)
+    with pytest.raises(VolfrepError, match="no radii of a sizing"):
+        slicer_infill(BOX, sized=plain)
+
+
+def test_the_command_takes_what_size_has_written(tmp_path, capsys):
+    part, target = tmp_path / "part.stl", tmp_path / "part.3mf"
+    write_stl(BOX, part)
+    wanted = ("--sized", sized_spec(tmp_path), "--bands", 3)
+    assert run("infill", part, "-o", target, *wanted) == 0
+    assert "band 3" in capsys.readouterr().out

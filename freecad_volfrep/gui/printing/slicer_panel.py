@@ -30,7 +30,7 @@ from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, translate
 from volfrep.design.banded_infill import FEWEST_BANDS, MOST, MOST_BANDS
 from volfrep.design.banded_words import PATTERNS
 
-from .slicer_view import colours_of
+from .band_colours import colours_of
 
 #: Fields that say something for some choices only.
 _FOR = {

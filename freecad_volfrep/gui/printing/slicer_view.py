@@ -13,14 +13,14 @@ from freecad_volfrep.gui.draw import drawing
 from freecad_volfrep.gui.qt import QtCore
 from freecad_volfrep.saved_names import saved_module
 
+from .band_colours import colours_of
+
 if TYPE_CHECKING:
     from volfrep.mesh.triangle_mesh import TriangleMesh
 
 #: The display mode that a new one has.
 BANDS = "Bands"
-#: From sparse to dense (of ColorBrewer's YlOrRd, told apart in grey too), and how far they are seen
-#: through: the solid outside the most.
-COLOURS = ((1.0, 0.91, 0.55), (0.99, 0.70, 0.30), (0.95, 0.35, 0.18), (0.55, 0.0, 0.20))
+#: How far they are seen through: the solid outside the most.
 CLEAR, CLEAREST = 0.62, 0.85
 #: Selected, it keeps its colours.
 SELECTION_STYLE = "BoundBox"
@@ -119,21 +119,6 @@ class SlicerInfillView:
 
 # Saved files find the class under this name.
 SlicerInfillView.__module__ = saved_module("gui.view_provider")
-
-
-def colours_of(count: int) -> list[tuple[float, float, float]]:
-    """Of so many bands, the least dense first."""
-    found = []
-    for k in range(count):
-        place = k / max(count - 1, 1) * (len(COLOURS) - 1)
-        low = min(int(place), len(COLOURS) - 2)
-        share = place - low
-        red, green, blue = (
-            (1.0 - share) * a + share * b
-            for a, b in zip(COLOURS[low], COLOURS[low + 1], strict=True)
-        )
-        found.append((red, green, blue))
-    return found
 
 
 def draw_bands(node: Any, pieces: list[TriangleMesh]) -> None:

@@ -11,7 +11,7 @@ unexport PYTHONDONTWRITEBYTECODE
 SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 
 .NOTPARALLEL:
-.PHONY: help setup demo check test test-all test-slow lint format test-core test-random test-alone test-freecad \
+.PHONY: help setup setup-light demo check test test-all test-slow lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
 	digests vocabulary validate release test-release site test-escape torture fuzz bench bench-quick bench-readme catalogue clean
 
@@ -20,6 +20,10 @@ help: ## show this list
 
 setup: ## install what is missing: FreeCAD, Python packages, a private FreeCAD profile
 	@tools/setup.sh
+
+# What needs neither FreeCAD nor other programs.
+setup-light:
+	@tools/setup.sh light
 
 demo: setup ## model a bracket, fill it, and leave files and a picture in build/demo
 	@mkdir -p build/demo
@@ -57,15 +61,15 @@ WINDOWS = $(call lane,$(GUI_FIRST)) , \
 	$(call lane,$(filter-out $(GUI_FIRST),$(GUI_GROUPS) $(GUI_ALONE)))
 IN_FREECAD = "freecad=make --no-print-directory test-freecad"
 
-check: setup ## style, types, and the tests nearest to what changed, in FreeCAD too, in a minute (SECONDS=50, BASE=main)
+check: setup-light ## style, types, and the tests nearest to what changed, in FreeCAD too, in a minute (SECONDS=50, BASE=main)
 	@$(PYTHON) tools/check.py $(if $(BASE),--base $(BASE)) $(if $(SECONDS),--seconds $(SECONDS))
 
-lint: setup ## ruff and mypy
+lint: setup-light ## ruff and mypy
 	@.venv/bin/ruff check .
 	@.venv/bin/ruff format --check .
 	@.venv/bin/mypy
 
-format: setup ## let ruff rewrite the sources
+format: setup-light ## let ruff rewrite the sources
 	@.venv/bin/ruff format .
 	@.venv/bin/ruff check --fix .
 
@@ -140,10 +144,10 @@ vocabulary: setup ## whether a change altered a word that a user meets (VOCABULA
 test-newest: ## the engine's tests on the newest numpy, scipy and scikit-image
 	@tools/newest.sh
 
-release: setup ## what users get, from the tag of this version, in build/release (STATE=HEAD: any other state)
+release: setup-light ## what users get, from the tag of this version, in build/release (STATE=HEAD: any other state)
 	@tools/release.sh $(STATE)
 
-test-release: setup ## what users get, made and tried: archive, wheel in every Python found here, site
+test-release: setup-light ## what users get, made and tried: archive, wheel in every Python found here, site
 	@tools/release.sh .
 	@$(PYTHON) tools/test_wheel.py build/release
 	@$(MAKE) --no-print-directory site

@@ -3,6 +3,7 @@
 
 import importlib.util
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -35,3 +36,10 @@ def test_a_change_of_the_workbench_is_near_to_its_tests_in_freecad():
     assert near.get(check.CORE / "jobs" / "test_targets.py") is None
     near = check.distances(["tests/freecad/conftest.py"])
     assert near[check.IN_FREECAD / "test_freecad_print_check.py"] == 1
+
+
+def test_a_case_begins_after_the_end_only_where_it_holds_the_rules_of_the_house(monkeypatch):
+    monkeypatch.setenv(check._UNTIL, "0")
+    check.pytest_runtest_setup(SimpleNamespace(path=check.CORE / "test_layers.py"))
+    with pytest.raises(pytest.skip.Exception):
+        check.pytest_runtest_setup(SimpleNamespace(path=check.CORE / "test_kinds.py"))

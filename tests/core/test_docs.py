@@ -16,7 +16,7 @@ import pytest
 
 import volfrep
 from volfrep.api import accepted
-from volfrep.cli.command import _parser
+from volfrep.cli.command import make_parser
 from volfrep.design.parameters import GROUPS, PARAMETERS
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -126,7 +126,7 @@ def commands_of_examples() -> list[tuple[str, list[str]]]:
 def test_every_command_that_is_shown_is_understood() -> None:
     commands = commands_of_examples()
     assert {"tpms.md", "README.md", "tests.yml"} <= {name for name, _ in commands}
-    parser = _parser()
+    parser = make_parser()
     for _, arguments in commands:
         parser.parse_args([re.sub(r"\$\w+", "1", word) for word in arguments if word != "..."])
 

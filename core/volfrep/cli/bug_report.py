@@ -12,8 +12,8 @@ import os
 import platform
 import re
 import sys
-from argparse import Namespace
-from collections.abc import Callable, Mapping
+from argparse import ArgumentParser, Namespace
+from collections.abc import Mapping
 from typing import Any
 
 from ..util.version import PACKAGES, VERSION, versions
@@ -112,9 +112,9 @@ def _quoted(found: re.Match[str]) -> str:
     return f"{found['mark']}{source if source != path else _last(path)}{found['mark']}"
 
 
-def add_command(add: Callable[..., Any]) -> None:
-    """Add ``report-bug`` to the command's parser."""
-    parser = add("report-bug", _run, "Print what a report of a fault needs: versions, and the job.")
+def add_report_bug(parser: ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_run)
     parser.add_argument("--spec", metavar="FILE", help="the specification of the job that failed")
     parser.add_argument("--log", metavar="FILE", help="what it printed")
 

@@ -7,8 +7,6 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
-from typing import Any
 
 from ..util.progress_bar import drawn
 from .files import check_files
@@ -16,12 +14,10 @@ from .parameter_options import add_parameters, specified
 from .run_options import add_run_options
 from .telling import print_rows
 
-_TEXT = "Make specimens of a lattice to print and measure, numbered in relief, in a folder."
 
-
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
-    """Add the command with `cli`'s own function for that."""
-    parser = add("coupon", _coupon, _TEXT)
+def add_coupon(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_coupon)
     add_run_options(parser, "coupon")
     add_parameters(parser, of_block=True)
 

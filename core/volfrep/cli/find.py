@@ -7,22 +7,16 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
-from typing import Any
 
 from ..util.errors import VolfrepError
 from .files import check_files
 from .run_options import add_run_options
 
-_TEXT = (
-    "Tell which library cells, at which radius, have a modulus or a relative density; or both, the "
-    "nearest first."
-)
 
-
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
-    """Add the command with `cli`'s own function for that."""
-    add_run_options(add("find", _find, _TEXT), "find")
+def add_find(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_find)
+    add_run_options(parser, "find")
 
 
 def _find(given: argparse.Namespace) -> None:

@@ -7,9 +7,7 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from ..util.errors import VolfrepError
 from ..util.progress_bar import drawn
@@ -17,9 +15,6 @@ from .files import check_files
 from .run_options import add_run_options
 from .telling import print_rows
 
-_TEXT = (
-    "Write a part with bands of a slicer's own infill, denser where a field says, as a 3MF project."
-)
 #: Options that are fields of `BandedInfill` by the same name.
 _FIELDS = (
     "grading", "start", "end", "profile", "reach", "direction", "field", "column", "curve",
@@ -27,9 +22,9 @@ _FIELDS = (
 )  # fmt: skip
 
 
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
-    """Add the command with `cli`'s own function for that."""
-    parser = add("infill", _infill, _TEXT)
+def add_infill(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_infill)
     parser.add_argument(
         "part", metavar="PART", help="the closed solid, as it stands on the build plate"
     )

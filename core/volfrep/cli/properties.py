@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
-from typing import Any
 
 from ..util.errors import VolfrepError
 from .files import check_files
@@ -18,21 +16,21 @@ from .telling import print_rows
 
 #: What takes longer is told before, s.
 LONG = 10.0
-_TEXT = "Tell density, stiffness, strength and conductance of a cell's lattice."
-_CELLS_TEXT = (
-    "List the library of unit cells, or those of a catalogue's text; or take one out of it."
-)
 
 
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
-    """Add the commands with `cli`'s own function for that."""
-    cells = add("cells", _cells, _CELLS_TEXT)
-    cells.add_argument(
+def add_cells(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_cells)
+    parser.add_argument(
         "catalogue", metavar="CATALOGUE", nargs="?",
         help="a text of cells in the format of Lumpe and Stankovic; without it, the library",
     )  # fmt: skip
-    add_run_options(cells, "cells")
-    parser = add("properties", _properties, _TEXT)
+    add_run_options(parser, "cells")
+
+
+def add_properties(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_properties)
     parser.add_argument(
         "cell",
         metavar="CELL",

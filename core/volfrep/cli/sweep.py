@@ -7,8 +7,8 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from ..util.numbers import plural
 from ..util.progress_bar import drawn
@@ -19,14 +19,13 @@ from .telling import print_rows, print_warnings
 if TYPE_CHECKING:
     from ..studies.sweep import Swept
 
-_TEXT = "Make many designs of a part, and a table, a page and the Pareto front of them."
 #: Sentences on what makes no sense, or failed, that are told.
 _MOST_TOLD = 5
 
 
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
-    """Add the command with `cli`'s own function for that."""
-    parser = add("sweep", _sweep, _TEXT)
+def add_sweep(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_sweep)
     parser.add_argument(
         "study", metavar="STUDY.toml", help="parts, what varies, what is done: docs/studies.md"
     )

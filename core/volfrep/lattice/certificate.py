@@ -17,10 +17,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from ..mesh.quality import Quality
+from ..mesh.topology import pieces_of
 from ..octants.octant import Octant, OctantGrid
 from ..util.linalg import along
 from ..util.types import Floats, Ints
@@ -122,8 +121,7 @@ def certify_pieces(
     links, rim, owner = _fit_together(layout, kinds, first)
     if not all(kind.sound for kind in kinds):
         raise RuntimeError("an octant of the lattice is not a proper piece of surface")
-    graph = coo_matrix((np.ones(len(links), bool), links.T), shape=(total, total))
-    pieces, label = connected_components(graph, directed=False) if total else (0, _NONE)
+    pieces, label = pieces_of(links[:, 0], links[:, 1], total)
     volume, normal = np.zeros(pieces), np.zeros((pieces, 3))
     triangles, degenerate, area = 0, 0, 0.0
     for number, (kind, place) in enumerate(zip(kinds, layout.places, strict=True)):
@@ -146,7 +144,7 @@ def certify_pieces(
         triangles += len(place) * len(layout.octants[grid.keys[number]].triangles)
     return CertifiedPieces(
         centre, volume, normal, area, triangles, degenerate, rim,
-        label[owner].astype(np.int64),
+        label[owner],
     )  # fmt: skip
 
 

@@ -6,9 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
+from ..mesh.topology import pieces_of
 from ..octants.octant import Octant
 from ..util.types import Bools, Floats, Ints
 
@@ -59,8 +58,7 @@ def look_at(octant: Octant) -> OctantKind:
     # An open edge lies on exactly one face, every other one on none.
     sound = bool((known[1:] > known[:-1]).all()) and bool((on_one_face == is_open).all())
     sound &= bool((np.bincount(start, minlength=count) > 0).all())
-    graph = coo_matrix((np.ones(len(start), bool), (start, end)), shape=(count, count))
-    pieces, piece = connected_components(graph, directed=False) if count else (0, np.zeros(0, int))
+    pieces, piece = pieces_of(start, end, count)
     open_edges, open_piece = {}, {}
     name = np.stack([octant.entity.astype(np.int64), octant.rank.astype(np.int64)], axis=1)
     for axis in range(3):
@@ -69,7 +67,7 @@ def look_at(octant: Octant) -> OctantKind:
             edges = np.concatenate([name[start[here]], name[end[here]]], axis=1)
             order = np.lexsort(edges.T)
             open_edges[axis, side] = edges[order]
-            open_piece[axis, side] = piece[start[here]][order].astype(np.int64)
+            open_piece[axis, side] = piece[start[here]][order]
 
     owner = piece[triangles[:, 0]]
     normal = np.stack(
@@ -77,8 +75,8 @@ def look_at(octant: Octant) -> OctantKind:
     )
     flux = np.einsum("ij,ij->i", corners[:, 0], twice) / 6.0
     return OctantKind(
-        int(pieces),
-        piece.astype(np.int64),
+        pieces,
+        piece,
         np.bincount(owner, flux, minlength=pieces).astype(np.float64),
         normal.astype(np.float64),
         float(0.5 * np.linalg.norm(twice, axis=1).sum()),

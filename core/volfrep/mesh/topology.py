@@ -2,6 +2,8 @@
 """Which triangles, edges and vertices of a mesh belong together: all that needs no coordinates.
 
 An edge is a pair of vertices in either order, and has a key. Meshes may be open or not manifold.
+
+scipy's graphs are loaded when a large one is asked for: that takes as long as a small block.
 """
 
 from __future__ import annotations
@@ -13,8 +15,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix, csr_matrix
-from scipy.sparse.csgraph import connected_components
 
 from ..util.ragged import rows_of
 from ..util.threads import in_threads, threads
@@ -27,6 +27,8 @@ BLOCK_TRIANGLES = 1 << 17
 AHEAD, BACK = 1, 1 << 32
 #: Vertices per block in `pinched_vertices`.
 BLOCK_VERTICES = 1 << 14
+#: Up to so many pairs, pieces are found without scipy.
+FEW_PAIRS = 50_000
 
 
 def edge_keys(one: NDArray[Any], two: NDArray[Any], count: int | np.int64) -> Ints:
@@ -197,6 +199,8 @@ class _Block:
 
 def _uses_in(triangles: NDArray[np.int32], shared: Bools) -> _Block:
     """What is found of some triangles, of whose vertices others use the shared ones."""
+    from scipy.sparse.csgraph import connected_components
+
     low, high = int(triangles.min()), int(triangles.max())
     is_used = np.zeros(high - low + 1, bool)
     is_used[triangles - np.int32(low)] = True
@@ -228,6 +232,8 @@ def _counts(corners: NDArray[np.int32], size: int) -> Any:
 
     Building it is a counting sort, in compiled code that lets other threads run.
     """
+    from scipy.sparse import csr_matrix
+
     start, end = corners.ravel(), np.concatenate([corners[1], corners[2], corners[0]])
     uses = np.where(start < end, np.int64(AHEAD), np.int64(BACK))
     places = np.minimum(start, end), np.maximum(start, end)
@@ -292,10 +298,34 @@ def open_vertices(triangles: NDArray[Any], count: int) -> Bools:
 
 
 def pieces_of(first: NDArray[Any], second: NDArray[Any], count: int) -> tuple[int, Ints]:
-    """How many pieces `count` things make that are joined in pairs, and the piece of each."""
+    """How many pieces `count` things make that are joined in pairs, and the piece of each.
+
+    Pieces are numbered in the order of their first things.
+    """
+    if len(first) <= FEW_PAIRS:
+        return _few_pieces(first, second, count)
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
     graph = coo_matrix((np.ones(len(first), bool), (first, second)), shape=(count, count))
     pieces, piece = connected_components(graph, directed=False)
     return int(pieces), piece.astype(np.int64)
+
+
+def _few_pieces(first: NDArray[Any], second: NDArray[Any], count: int) -> tuple[int, Ints]:
+    """As `pieces_of`: each thing points to a lower one of its piece, at last to the lowest."""
+    lowest = np.arange(count)
+    while True:
+        one, two = lowest[first], lowest[second]
+        apart = one != two
+        if not apart.any():
+            break
+        one, two = one[apart], two[apart]
+        np.minimum.at(lowest, np.maximum(one, two), np.minimum(one, two))
+        while (lower := lowest[lowest]).tobytes() != lowest.tobytes():
+            lowest = lower
+    roots, piece = np.unique(lowest, return_inverse=True)
+    return len(roots), piece.astype(np.int64)
 
 
 def pinched_vertices(mesh: TriangleMesh) -> int:
@@ -324,8 +354,7 @@ def _pinched_in(mesh: TriangleMesh, corner: NDArray[np.int64], at: NDArray[np.in
     # A corner joins the two edges it lies between: a fan is a connected set of edges.
     edges, index = np.unique(np.concatenate([one, two]), return_inverse=True)
     index = index.reshape(2, -1)
-    links = coo_matrix((np.ones(len(corner), np.int8), tuple(index)), shape=(len(edges),) * 2)
-    fans, fan_of_edge = connected_components(links, directed=False)
+    fans, fan_of_edge = pieces_of(index[0], index[1], len(edges))
     vertex_of_fan = np.zeros(fans, np.int64)
     vertex_of_fan[fan_of_edge] = edges >> 32
     _, fans_of_vertex = np.unique(vertex_of_fan, return_counts=True)

@@ -14,7 +14,7 @@ import pytest
 import trimesh
 
 from command import run
-from volfrep.cli import sizing
+from volfrep.cli import size as size_command
 from volfrep.io.solid import read_triangles
 from volfrep.io.write.stl import write_stl
 from volfrep.jobs.sizing import Goal
@@ -262,7 +262,7 @@ def test_a_signal_to_stop_keeps_the_best_design_so_far(
 
         return watch
 
-    monkeypatch.setattr(sizing, "_teller", interrupting)
+    monkeypatch.setattr(size_command, "_teller", interrupting)
     report = tmp_path / "r.json"
     assert size(part, *WHOLE, "--no-proof", "--report", report) == 0
     assert len(told) == 3 or len(told) == 4

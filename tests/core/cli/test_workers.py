@@ -19,7 +19,7 @@ import pytest
 import command
 import samples
 import volfrep
-import volfrep.cli.command
+import volfrep.cli.fill
 from clusters import WORKERS, worker
 from clusters import cluster as cluster
 from volfrep import LatticeSpec, VolfrepError
@@ -70,7 +70,7 @@ def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
 
     monkeypatch.setattr(pool, "processes", nobody)
     for least, given in ((10**9, ()), (10**9, ("--workers", 3)), (1, ()), (1, ("--workers", 3))):
-        monkeypatch.setattr(volfrep.cli.command, "WORTH_WORKERS", least)
+        monkeypatch.setattr(volfrep.cli.fill, "WORTH_WORKERS", least)
         assert fill(part, tmp_path / "out.stl", "--quiet", "--cell-size", 12, *given) == 2
     module = "volfrep.trim.group_cut"
     assert asked == [(1, ""), (3, ""), (None, module), (3, module)]

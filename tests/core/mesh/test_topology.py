@@ -7,6 +7,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 import samples
+from volfrep.mesh import topology
 from volfrep.mesh.quality import inspect
 from volfrep.mesh.topology import edge_uses
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
@@ -70,3 +71,15 @@ def test_a_mesh_has_the_same_figures_in_blocks(monkeypatch):
 def test_what_is_empty_has_no_edges():
     nothing = edge_uses(TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32)))
     assert (nothing.count, nothing.pieces) == (0, 0)
+
+
+@pytest.mark.parametrize(("count", "pairs"), [(0, 0), (5, 0), (300, 200), (300, 300), (9, 400)])
+def test_pieces_are_the_same_with_scipys_graphs_and_without(count, pairs, monkeypatch):
+    one, two = np.random.default_rng(7).integers(0, max(count, 1), (2, pairs))
+    few, piece = topology.pieces_of(one, two, count)
+    monkeypatch.setattr(topology, "FEW_PAIRS", -1)
+    by_scipy, of_scipy = topology.pieces_of(one, two, count)
+    assert few == by_scipy
+    assert np.array_equal(piece, of_scipy)
+    lowest = [np.flatnonzero(piece == k)[0] for k in range(few)]
+    assert lowest == sorted(lowest), "numbered by their first things"

@@ -7,9 +7,7 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from ..util.errors import VolfrepError
 from ..util.progress_bar import drawn
@@ -17,12 +15,10 @@ from .files import check_files
 from .run_options import add_run_options
 from .telling import print_rows
 
-_TEXT = "Find the best build directions of a solid: overhang, closed rooms, height, footprint."
 
-
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
-    """Add the command with `cli`'s own function for that."""
-    parser = add("orient", _orient, _TEXT)
+def add_orient(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_orient)
     parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
     add_run_options(parser, "orient")
 

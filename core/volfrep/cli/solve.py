@@ -10,19 +10,16 @@ import argparse
 import dataclasses
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from ..util.progress_bar import drawn
 from .files import check_files
 from .run_options import add_run_options
 from .telling import print_rows, print_warnings
 
-_TEXT = "Solve a solid under load cases by voxel finite elements: a filled part or any other."
 
-
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
-    """Add the command with `cli`'s own function for that."""
-    parser = add("solve", _solve, _TEXT)
+def add_solve(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_solve)
     parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
     add_run_options(parser, "solve")
 

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from types import FrameType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..util.errors import Cancelled, VolfrepError
 from ..util.numbers import duration
@@ -25,7 +25,7 @@ from .files import read_part
 from .options import SizeOptions, size_options
 from .parameter_options import add_parameters
 from .run_options import add_run_options
-from .solving import tell_expected
+from .solve import tell_expected
 from .telling import print_rows, print_summary, print_warnings
 
 if TYPE_CHECKING:
@@ -34,12 +34,11 @@ if TYPE_CHECKING:
 
 #: What a script is told of a part that does not hold a limit, though it is written.
 EXIT_NOT_HELD = 3
-_TEXT = "Fill a solid with a lattice whose struts are sized for its load cases."
 
 
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], int | None], str], Any]) -> None:
-    """Add the command with `cli`'s own function for that."""
-    parser = add("size", _size, _TEXT)
+def add_size(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_size)
     parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
     add_run_options(parser, "size")
     add_parameters(parser)

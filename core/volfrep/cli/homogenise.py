@@ -7,8 +7,6 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
-from typing import Any
 
 from ..util.progress_bar import drawn
 from .files import check_files, read_part
@@ -16,12 +14,10 @@ from .parameter_options import add_parameters, specified
 from .run_options import add_run_options
 from .telling import print_rows, print_warnings
 
-_TEXT = "Solve a filled part, of any number of cells, as a solid of its lattice's stiffness."
 
-
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
-    """Add the command with `cli`'s own function for that."""
-    parser = add("homogenise", _homogenise, _TEXT)
+def add_homogenise(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_homogenise)
     parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
     add_run_options(parser, "homogenise")
     add_parameters(parser)

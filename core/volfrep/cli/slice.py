@@ -7,8 +7,6 @@ numpy and the engine are imported inside the functions, as in `command`.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
-from typing import Any
 
 from ..util.progress_bar import drawn
 from .files import read_part
@@ -17,12 +15,10 @@ from .parameter_options import add_parameters
 from .run_options import add_run_options
 from .telling import print_rows, print_warnings
 
-_TEXT = "Write a filled part in layers along z, straight from its struts: no mesh is made."
 
-
-def add_command(add: Callable[[str, Callable[[argparse.Namespace], None], str], Any]) -> None:
-    """Add the command with `cli`'s own function for that."""
-    parser = add("slice", _slice, _TEXT)
+def add_slice(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_slice)
     parser.add_argument(
         "part", metavar="PART", help="the closed solid, as it stands on the build plate"
     )

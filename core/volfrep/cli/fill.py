@@ -1,0 +1,322 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The commands ``volfrep fill``, ``block`` and ``network``, which make lattices.
+
+numpy and the engine are imported inside the functions, as in `command`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..design.parameters import BY_NAME
+from ..util.progress_bar import drawn
+from .files import read_part
+from .options import (
+    BlockOptions,
+    FillOptions,
+    MeshOptions,
+    block_options,
+    fill_options,
+    network_options,
+)
+from .parameter_options import add_parameters
+from .run_options import add_run_options
+from .telling import print_rows, print_summary, print_warnings, write_report
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from ..design.spec import LatticeSpec
+    from ..io.solid import Solid
+    from ..output.sources import FilledPart, Free
+    from ..process.worker import Ending
+    from ..reports.estimate import Estimate
+    from ..reports.printability import PrintReport
+    from ..reports.report import Report
+
+#: Fewer triangles than these are cut in this process: others take longer to start.
+WORTH_WORKERS = 600_000
+
+
+def add_fill(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_fill)
+    parser.add_argument(
+        "part",
+        metavar="PART",
+        help="the closed solid: STL, OBJ, PLY or 3MF, or with FreeCAD at hand STEP, IGES or BREP",
+    )
+    add_run_options(parser, "fill")
+    add_parameters(parser)
+
+
+def add_block(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_block)
+    add_run_options(parser, "block")
+    add_parameters(parser, of_block=True)
+
+
+def add_network(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.set_defaults(command=_network)
+    parser.add_argument("file", metavar="FILE", help=BY_NAME["network_file"].help)
+    add_run_options(parser, "network")
+    laid = ("origin", "network_thickness", "network_layers", "network_reversed")
+    add_parameters(parser, of_block=True, also=laid)
+
+
+@contextmanager
+def _workers(options: FillOptions, triangles: int) -> Iterator[Executor | None]:
+    """Those that the options ask for; where they do not, as many as so many triangles are worth."""
+    from ..process.cluster import dask_workers
+    from ..process.pool import processes
+
+    if options.scheduler is not None:
+        with dask_workers(options.scheduler) as executor:
+            yield executor
+        return
+    count, module = options.workers, ""
+    if count == 1:
+        from concurrent.futures import ThreadPoolExecutor
+
+        with ThreadPoolExecutor(1) as executor:  # groups one after the other
+            yield executor
+        return
+    if triangles >= WORTH_WORKERS:  # they start while this process looks for the wall
+        module = "volfrep.trim.group_cut"
+    elif count is None:
+        count = 1
+    with processes(count, module, _told_lost) as executor:
+        yield executor
+
+
+def _told_lost(ending: Ending) -> None:
+    """Tell at once of a worker that has ended; what it did is done again."""
+    print(f"volfrep: A worker has ended {ending}: the others go on.", file=sys.stderr, flush=True)
+
+
+def _fill(given: argparse.Namespace) -> None:
+    options = fill_options(given)
+
+    from ..design.forecast import forecast_fill
+    from ..jobs.kinds import lattice_kind
+    from ..jobs.targets import solve_target
+    from ..output.sources import FilledPart
+    from ..process.pool import let_go
+
+    spec, meshed = options.spec, options.form.meshed
+    start = time.perf_counter()
+    solid = read_part(options.part, options.unit, spec.cell_size)
+    read_seconds = time.perf_counter() - start
+    if options.limits:
+        _fill_within(options, solid, start, {"read": read_seconds})
+        return
+    rough = lattice_kind(spec).roughly_solved(solid)
+    if meshed and spec.output != "domain":
+        rough.kind.refuse_crossing()
+    expected = forecast_fill(solid, rough, streamed=options.is_plain)
+    if not options.quiet:
+        print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
+    is_cut = meshed and spec.kind.is_cut_in_groups and spec.output != "domain"
+    cut = expected.triangles if is_cut else 0
+    with _workers(options, cut) as executor, drawn(options.quiet) as progress:
+        made = solve_target(
+            solid, spec, progress=progress, meshed=meshed, executor=executor,
+            streamed=options.is_plain,
+        )  # fmt: skip
+        made.ahead = lambda _: let_go(executor)  # all groups are cut
+        _make(FilledPart(made, progress=progress), options, start, {"read": read_seconds})
+
+
+def _fill_within(
+    options: FillOptions, solid: Solid, start: float, before: dict[str, float]
+) -> None:
+    """Fill with the finest facets with which the file keeps within its limits."""
+    from ..jobs.targets import solve_target
+    from ..output.file_size import filled_triangles
+    from ..output.sources import FilledPart
+    from ..util.cache import StageCache
+
+    cache = StageCache()
+    with drawn(options.quiet) as progress:
+
+        def make(spec: LatticeSpec) -> FilledPart:
+            made = solve_target(solid, spec, progress=progress, cache=cache)
+            return FilledPart(made, progress=progress)
+
+        _make_within(options, filled_triangles(solid), make, start, before)
+
+
+def _make_within(
+    options: FillOptions | BlockOptions,
+    expect: Callable[[LatticeSpec], float],
+    make: Callable[[LatticeSpec], FilledPart | Free],
+    start: float,
+    before: dict[str, float],
+) -> None:
+    """Make and write what keeps within the limits of the file.
+
+    Args:
+        options: of the command.
+        expect: triangles of a specification.
+        make: makes one.
+        start: as of `_make`.
+        before: as of `_make`.
+    """
+    from ..output.file_size import fit_file
+
+    found = fit_file(options.spec, options.limits, options.form, expect, make)
+    if found.note:
+        print_warnings([found.note])
+    _make(found.made, options, start, before)
+
+
+def _block(given: argparse.Namespace) -> None:
+    options = block_options(given)
+
+    from ..design.forecast import forecast_block
+
+    before: dict[str, float]
+    start, count, meshed = time.perf_counter(), options.count, options.form.meshed
+    if options.limits:
+        from ..jobs.targets import solve_block_target
+        from ..output.sources import Block
+
+        with drawn(options.quiet) as progress:
+            _make_within(
+                options,
+                lambda spec: forecast_block(spec, count).triangles,
+                lambda spec: Block(solve_block_target(spec, count), progress),
+                start,
+                {},
+            )
+        return
+    if options.spec.target is None:
+        from ..jobs.kinds import lattice_kind
+
+        block = lattice_kind(options.spec).block(count)
+        before = {}
+    else:
+        from ..jobs.targets import solve_block_target  # loads what fills parts
+
+        block = solve_block_target(options.spec, count, meshed=meshed)
+        before = {"target": time.perf_counter() - start}
+    spec = block.spec
+    streamed = options.is_plain and options.form.name == "stl"
+    if meshed:
+        spec.kind.refuse_crossing()
+        if not options.quiet:
+            expected = forecast_block(spec, count, streamed=streamed)
+            print(f"Expected: {expected}.", flush=True)
+    with drawn(options.quiet) as progress:
+        if not streamed:
+            from ..output.sources import Block
+
+            _make(Block(block, progress), options, start, before)
+            return
+        from ..util.progress import Monitor
+
+        # Octant by octant, without a surface in between.
+        report = block.write_stl(options.output, Monitor(progress))
+        _tell(dataclasses.replace(report, stages={**before, **report.stages}), options)
+
+
+def _network(given: argparse.Namespace) -> None:
+    options = network_options(given)
+
+    from ..output.sources import FreeGraph
+
+    start = time.perf_counter()
+    with drawn(options.quiet) as progress:
+        _make(FreeGraph(options.spec, progress), options, start, {})
+
+
+def _make(
+    part: FilledPart | Free, options: MeshOptions, start: float, before: dict[str, float]
+) -> None:
+    """Write a part in its form; tell what was made.
+
+    Args:
+        part: what is written.
+        options: of the command.
+        start: when the job began, of `time.perf_counter`.
+        before: seconds of stages that are over.
+    """
+    from ..output.writer import Settings, writer_of
+    from ..util.progress import peak_memory_mb
+
+    def announce(estimate: Estimate) -> None:
+        if not options.quiet:
+            print(f"{options.output}: {estimate}", flush=True)
+
+    out, form = options.output, options.form
+    settings = Settings(material=options.material, tell=announce)
+    writer, notes = writer_of(form).settle(part)
+    print_warnings(notes)
+    if not form.meshed:
+        print_warnings(options.notes)
+        written = writer.write(part, out, settings)
+        print_warnings(written.warnings)
+        if not options.quiet:
+            print_rows(
+                ("file", f"{out}, {Path(out).stat().st_size / 1e6:.1f} MB"),
+                *written.rows,
+                ("time", f"{time.perf_counter() - start:.2f} s"),
+            )
+        _keep(options)
+        return
+    result = part.result
+    start = time.perf_counter()
+    written = writer.write(part, out, settings)
+    if written.rows and not options.quiet:
+        print_rows(*written.rows)
+    report = dataclasses.replace(
+        result.report,
+        stages={**before, **result.report.stages, "write": time.perf_counter() - start},
+        peak_memory_mb=peak_memory_mb(),
+        warnings=tuple(dict.fromkeys((*result.report.warnings, *written.warnings))),
+    )
+    report = dataclasses.replace(report, warnings=(*options.notes, *report.warnings))
+    printing, struts = None, result.wireframe
+    if options.printed is not None:
+        from ..jobs.as_printed import as_printed
+
+        printed = as_printed(struts, options.printed, options.build_direction)
+        struts, cavity = printed.struts, part.cavity
+        room = report.volume_mm3 / report.relative_density if cavity is None else cavity.volume
+        lattice = report.relative_density * abs(room)
+        if not options.quiet:
+            print_rows(printed.row(lattice, report.volume_mm3, part.spec.density))
+    if options.process is not None:
+        from ..jobs.figures.print_check import check_print
+
+        printing = check_print(
+            result.mesh, struts, part.cavity, part.spec, options.process,
+            options.build_direction,
+        )  # fmt: skip
+    _tell(report, options, printing)
+    if options.picture is not None:
+        from ..reports.picture import picture
+
+        picture(result.mesh, part.spec, options.picture, solid=part.solid)
+
+
+def _tell(report: Report, options: MeshOptions, printing: PrintReport | None = None) -> None:
+    """Say what was made, and write its figures and the specification."""
+    if options.report is not None:
+        write_report(report, options.report, printing)
+    print_summary(report, options.output, printing, quiet=options.quiet)
+    _keep(options)
+
+
+def _keep(options: MeshOptions) -> None:
+    if options.kept is not None:
+        options.kept.write()

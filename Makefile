@@ -73,6 +73,10 @@ format: setup-light ## let ruff rewrite the sources
 	@.venv/bin/ruff format .
 	@.venv/bin/ruff check --fix .
 
+# Two runs of tests share the cores: threads of the library behind numpy only wait for each other.
+test test-all test-slow check test-core test-random test-freecad test-in-freecad test-gui \
+	test-freecad-1 test-newest: export OPENBLAS_NUM_THREADS := 1
+
 # Which tests: pytest's word for it, that the windows' scripts know, too (tools/run_gui.sh). By way
 # of the environment, so that the parts of test-all and test-slow see it.
 export MARK ?= not slow

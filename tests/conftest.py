@@ -6,6 +6,8 @@ Those that the mark `slow_cases` names beside it, or all but those that `slow_bu
 
 from __future__ import annotations
 
+import gc
+
 import pytest
 
 
@@ -33,3 +35,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
                 for name, item in of_test.items():
                     if (name in mark.args) == (kind == "slow_cases"):
                         item.add_marker("slow")
+
+
+def pytest_collection_finish() -> None:
+    """What was imported and collected stays to the end: Python need not look at it ever again."""
+    gc.freeze()

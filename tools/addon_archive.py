@@ -48,6 +48,8 @@ _MODULE = r"(?<![\w.])(freecad_volfrep|volfrep)((?:\.\w+)*)(?![\w-])"
 #: A string that is nothing but a module's name, and code in a string.
 _NAMES_MODULE = re.compile(rf"^{_MODULE}$")
 _IMPORTS = re.compile(rf"\b(from|import) {_MODULE}")
+#: What a line has in which a string may be such: only then are strings looked for, which is slow.
+_MAY_NAME = re.compile(r"volfrep\.\w|\b(from|import) (freecad_)?volfrep")
 
 
 def build(target: Path) -> Path:
@@ -163,7 +165,9 @@ def rewrite(text: str, place: Path) -> str:
         and ast.get_docstring(node, clean=False) is not None
     }
     strings = {tokenize.STRING, getattr(tokenize, "FSTRING_MIDDLE", tokenize.STRING)}
-    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+    others = (line for number, line in enumerate(lines, 1) if number not in in_statement)
+    may_change = any(map(_MAY_NAME.search, others))
+    for token in tokenize.generate_tokens(io.StringIO(text).readline) if may_change else ():
         if (
             token.type not in strings
             or token.start in documentation

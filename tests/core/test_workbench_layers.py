@@ -7,6 +7,7 @@ Read from the sources, which only FreeCAD could import.
 from __future__ import annotations
 
 import ast
+import functools
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -77,6 +78,13 @@ def imports(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
                 yield inner if inner in known else home
 
 
+@functools.cache
+def all_imports() -> dict[str, frozenset[str]]:
+    """Every module and what it imports, read once."""
+    known = modules()
+    return {name: frozenset(imports(name, path, known)) for name, path in known.items()}
+
+
 def layer(name: str) -> int:
     """Where a module stands in `LAYERS`: by its room, else its folder, else at the bottom."""
     parts = name.split(".")[1:]
@@ -91,25 +99,22 @@ def test_every_folder_is_a_room_with_a_row() -> None:
 
 
 def test_a_layer_imports_from_those_before_it_only() -> None:
-    known = modules()
     back = [
         f"{name} -> {target}"
-        for name, path in known.items()
-        for target in imports(name, path, known)
+        for name, targets in all_imports().items()
+        for target in targets
         if layer(target) > layer(name)
     ]
     assert back == []
-    assert any("bridge" in target for target in imports_of("features.reports.print_check", known))
+    assert any("bridge" in target for target in imports_of("features.reports.print_check"))
 
 
-def imports_of(name: str, known: dict[str, Path]) -> set[str]:
-    full = f"{PACKAGE}.{name}"
-    return set(imports(full, known[full], known))
+def imports_of(name: str) -> frozenset[str]:
+    return all_imports()[f"{PACKAGE}.{name}"]
 
 
 def test_no_imports_go_round() -> None:
-    known = modules()
-    targets = {name: set(imports(name, path, known)) - {name} for name, path in known.items()}
+    targets = {name: set(found) - {name} for name, found in all_imports().items()}
     while True:
         free = {name for name, needs in targets.items() if not needs & targets.keys()}
         if not free:
@@ -119,9 +124,8 @@ def test_no_imports_go_round() -> None:
 
 
 def test_objects_are_shown_by_what_the_window_registers() -> None:
-    known = modules()
-    assert f"{PACKAGE}.features.jobs.screen" in imports_of("window", known)
-    assert any(target.startswith(f"{PACKAGE}.gui") for target in imports_of("window", known))
+    assert f"{PACKAGE}.features.jobs.screen" in imports_of("window")
+    assert any(target.startswith(f"{PACKAGE}.gui") for target in imports_of("window"))
 
 
 def test_a_long_module_says_why() -> None:

@@ -267,7 +267,8 @@ def merge_short_struts(
         nodes = middle / np.bincount(label[counts], minlength=count)[:, None]
         held = any_held
         struts = np.sort(label[struts], axis=1)
-        struts = np.unique(struts[struts[:, 0] != struts[:, 1]], axis=0)
+        struts = struts[struts[:, 0] != struts[:, 1]]
+        struts = np.unique(struts, axis=0)
     return _used(nodes, struts)
 
 

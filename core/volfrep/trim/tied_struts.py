@@ -141,7 +141,8 @@ def tied(clipped: Clipped) -> Clipped:
     places = np.where(places < room, 0.0, np.where(places > 1.0 - room, 1.0, places))
     split, rows = _split(clipped, pairs.ravel(), places.ravel())
     rows = rows.reshape(-1, 2)
-    rows = np.unique(np.sort(rows[rows[:, 0] != rows[:, 1]], axis=1), axis=0)
+    rows = np.sort(rows[rows[:, 0] != rows[:, 1]], axis=1)
+    rows = np.unique(rows, axis=0)
     frame = split.wireframe
     thick = frame.joint_radii[rows].min(axis=1)
     gap = np.linalg.norm(frame.nodes[rows[:, 1]] - frame.nodes[rows[:, 0]], axis=1)

@@ -21,7 +21,7 @@ from ..design.grading import Field
 from ..design.graphs.files import read_network
 from ..design.graphs.graph import GivenGraph
 from ..design.parameters import BY_NAME
-from ..design.parameters.field_keywords import field_of, is_sampled
+from ..design.parameters.field_keywords import field_of, is_field, is_sampled
 from ..design.parameters.keywords import (
     as_graph,
     refuse_unknown,
@@ -466,6 +466,11 @@ def block(
     from ..output.sources import Block
 
     counts = block_counts(count)
+    if is_field("cell_size", parameters.get("cell_size")):
+        raise VolfrepError(
+            "A block is as large as its cells make it, so that these cannot follow places in it: "
+            "give 'size_grading', or 'fill' a box."
+        )
     corners = np.array([(0, 0, 0), counts], float)
     with shown(progress) as told:
         wanted = specified(spec, dict(parameters), material, lambda size: size * corners)

@@ -15,6 +15,8 @@ from ..util.types import Floats
 from .expression import SAMPLES, Expression, check_finite, compile_expression
 
 KINDS = ("scalar", "linear", "quadratic", "exponential", "expression")
+#: The kind of values that a field gave.
+SAMPLED = "sampled"
 #: Other names of kinds; the paper calls its quadratic profile polynomial, users say formula.
 ALIASES = {"polynomial": "quadratic", "formula": "expression"}
 
@@ -29,14 +31,17 @@ class Profile:
     - ``linear``: a + (b - a) s;
     - ``quadratic`` (or ``polynomial``): a + (b - a) s2;
     - ``exponential``: a exp(ln(b / a) s);
-    - ``expression``: the user's formula of s.
+    - ``expression``: the user's formula of s;
+    - ``sampled``: straight between `values` at even steps of s, which no user types
+      (`volfrep.design.cell_sizes`).
 
     Attributes:
-        kind: one of `KINDS`.
+        kind: one of `KINDS`, or ``sampled``.
         start: the value at s = 0, in whatever unit the quantity has.
         end: the value at s = 1. ``scalar`` takes `start` for it, and ``expression`` takes both
             from the formula, whatever was given: profiles that mean the same are equal.
         expression: the formula, for that kind only (see `volfrep.design.expression`).
+        values: of the kind ``sampled`` only, two or more.
 
     Raises:
         VolfrepError: at construction: an unknown kind, a value that is not finite and positive,
@@ -54,10 +59,16 @@ class Profile:
     start: float = 1.0
     end: float = 1.0
     expression: str = ""
+    values: tuple[float, ...] = ()
     _formula: Expression | None = field(init=False, repr=False, compare=False, default=None)
 
     def __post_init__(self) -> None:
         kind = ALIASES.get(str(self.kind), self.kind)
+        if kind == SAMPLED and len(self.values) > 1:
+            object.__setattr__(self, "values", tuple(_positive("value", v) for v in self.values))
+            object.__setattr__(self, "start", self.values[0])
+            object.__setattr__(self, "end", self.values[-1])
+            return
         if kind not in KINDS:
             raise VolfrepError(
                 f"There is no profile '{self.kind}': choose one of {', '.join(KINDS)}."
@@ -93,6 +104,8 @@ class Profile:
         at = np.clip(np.asarray(s, dtype=np.float64), 0.0, 1.0)
         if self._formula is not None:
             return self._positive_values(self._formula(at), at)
+        if self.kind == SAMPLED:
+            return np.interp(at, np.linspace(0.0, 1.0, len(self.values)), self.values)
         if self.kind == "linear":
             return np.asarray(self.start + at * (self.end - self.start))
         if self.kind == "quadratic":
@@ -117,6 +130,8 @@ class Profile:
         Exact for every kind but ``expression``, which is sampled, and sampled again more densely
         about the smallest and the largest of the samples.
         """
+        if self.kind == SAMPLED:
+            return min(self.values), max(self.values)
         if self._formula is None:
             return min(self.start, self.end), max(self.start, self.end)
         values = self(SAMPLES)

@@ -110,31 +110,48 @@ def _points(
     needed = 1.2 * count * float(np.prod(high - low)) / volume + 50
     if not even:
         needed *= 3.0
-    if needed > _MOST_DRAWN:
-        raise VolfrepError(
-            f"A network of {count:,} points in this part is more than can be drawn: take fewer, or "
-            "larger cells."
-        )
-    drawn = random.uniform(low, high, (int(needed), 3))
-    if not even:
-        if wanted.field is not None:
-            least, most = wanted.field.range
-            s = (wanted.field(drawn) - least) / max(most - least, 1e-300)
-        else:
-            below = depth(drawn)
-            s = np.clip(below / max(float(below.max()), 1e-12), 0.0, 1.0)
-        wish = np.maximum(wanted.formula(s), 0.0)
-        drawn = drawn[random.random(len(drawn)) * wish.max() < wish]
-    inside = inside_points(domain, drawn, monitor)
-    if inside.sum() < count:
-        # A formula that leaves most points out: as many as there are.
+    while True:
+        if needed > _MOST_DRAWN:
+            raise VolfrepError(
+                f"A network of {count:,} points in this part is more than can be drawn: take "
+                "fewer, or larger cells."
+            )
+        drawn = random.uniform(low, high, (int(needed), 3))
+        if not even:
+            drawn = drawn[_taken(wanted, drawn, depth, random)]
+        inside = inside_points(domain, drawn, monitor)
+        there = int(inside.sum())
+        more = 1.2 * needed * count / max(there, 1)
+        if there >= count or even or not there or more > _MOST_DRAWN:
+            break
+        needed = more
+    if there < count:
+        # A density that leaves nearly all out: as many as there are.
         return drawn, spacing
     # So many inside, and outside in proportion.
     kept = np.ones(len(drawn), bool)
     kept[random.permutation(np.flatnonzero(inside))[count:]] = False
-    share = count / inside.sum()
+    share = count / there
     kept[~inside] = random.random(int((~inside).sum())) < share
     return drawn[kept], spacing
+
+
+def _taken(
+    wanted: RandomGraph,
+    drawn: Floats,
+    depth: Callable[[Floats], Floats],
+    random: np.random.Generator,
+) -> Bools:
+    """(n,) which of evenly drawn points stay, so that they lie as densely as is wanted."""
+    if wanted.field is not None:
+        least, most = wanted.field.range
+        s = (wanted.field(drawn) - least) / max(most - least, 1e-300)
+    else:
+        below = depth(drawn)
+        s = np.clip(below / max(float(below.max()), 1e-12), 0.0, 1.0)
+    wish = np.maximum(wanted.formula(s), 0.0)
+    stays: Bools = random.random(len(drawn)) * wish.max() < wish
+    return stays
 
 
 def _ridge_edges(found: Voronoi) -> tuple[Ints, Ints, Ints]:

@@ -84,7 +84,10 @@ OTHERS = {
     PeriodicSurface: (PeriodicSurface("Formula", "cos(x)"), {"name": "A", "formula": "cos(y)"}),
     TpmsSheet: (TpmsSheet("skeleton"), {"kind": "complement", "offset": 0.2, "thickness": None}),
     SizeGrading: (SizeGrading(LINEAR), {"profile": STEEPER, "direction": (0, 1, 0)}),
-    Profile: (LINEAR, {"kind": "quadratic", "start": 0.6, "end": 1.1, "expression": None}),
+    Profile: (
+        LINEAR,
+        {"kind": "quadratic", "start": 0.6, "end": 1.1, "expression": None, "values": None},
+    ),
     RadiusGrading: (
         RadiusGrading("field", LINEAR, field=FIELD),
         {
@@ -142,6 +145,9 @@ PAIRS = {
         LatticeSpec(cell="Gyroid"), LatticeSpec(cell="Gyroid", wall=TpmsSheet("sheet", 2.0)),
     ),
     (TpmsSheet, "thickness"): (TpmsSheet("sheet", 1.0), TpmsSheet("sheet", 2.0)),
+    (Profile, "values"): (
+        Profile("sampled", values=(1.0, 2.0)), Profile("sampled", values=(1.0, 3.0)),
+    ),
     (Profile, "expression"): (
         Profile("formula", expression="1 + s"), Profile("formula", expression="1 + s * s"),
     ),

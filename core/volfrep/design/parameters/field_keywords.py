@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -11,18 +12,21 @@ import numpy as np
 
 from ...util.errors import VolfrepError
 from ...util.types import Floats
+from ..cell_sizes import SAMPLES, cells_by, points_by
 from ..field_files import TABLE_SUFFIXES, VTK_SUFFIXES
 from ..grading import Field, RadiusGrading
+from ..graphs import RandomGraph
+from ..graphs.graph import KINDS
 from ..profile import Profile
 from ..sampled_field import SAMPLES_ALONG_CELL, sample_function
 from ..scattered_field import PointField
 
 #: Keywords that take a field, whose values are: mm; mm; shares; what `radius_start` and
 #: `radius_end`, or `radius_curve`, map to mm; what `network_density` is a formula of; how dense
-#: points lie; mm.
+#: points lie; mm; mm; mm.
 FIELD_KEYWORDS = (
     "strut_radius", "wall_thickness", "relative_density", "radius_field", "network_field",
-    "network_density", "skin_field",
+    "network_density", "skin_field", "shell", "cell_size",
 )  # fmt: skip
 _OF_PLACE = re.compile(r"\b[xyz]\b")
 
@@ -39,8 +43,8 @@ def is_field(name: str, value: object) -> bool:
 
 
 def is_sampled(name: str, value: object) -> bool:
-    """Whether a field is given as a function or a formula, which a box is needed to sample."""
-    is_made = isinstance(value, (Field, tuple, list))
+    """Whether a field needs the part's box: a function or a formula, and any field of sizes."""
+    is_made = isinstance(value, (Field, tuple, list)) and name != "cell_size"
     return is_field(name, value) and not is_made
 
 
@@ -68,10 +72,7 @@ def field_of(name: str, value: Any, bounds: Floats | None, cell_size: float) -> 
                 f"'{name}' takes (n, 3) points and (n,) values, and these are no such arrays."
             ) from error
     if bounds is None:
-        raise VolfrepError(
-            f"'{name}' is a function of places in a part: give it to 'fill', 'size', 'block' or "
-            "'mesh_network', which know the part."
-        )
+        raise VolfrepError(_needs_part(name))
     return sample_function(value, bounds, cell_size / SAMPLES_ALONG_CELL, name)
 
 
@@ -90,6 +91,16 @@ def with_fields(
         if is_field(name, value)
     }
     result |= fields
+    if "shell" in fields:
+        if result.get("skin_field") is not None:
+            raise VolfrepError("'shell' is a field itself: leave 'skin_field' out.")
+        low, high = fields["shell"].range
+        if low <= 0.0:
+            raise VolfrepError(
+                f"'shell' is {low:g} mm somewhere: by place it must be above 0 everywhere; "
+                "'open_plane' opens faces."
+            )
+        result |= {"shell": low, "skin_field": fields["shell"] if high > low else None}
     if "radius_field" in fields:
         result.setdefault("radius_grading", "field")
     for name in ("strut_radius", "wall_thickness"):
@@ -109,9 +120,61 @@ def with_fields(
             raise VolfrepError(
                 f"'network_density' is {low:g} somewhere: points cannot be less than none."
             )
-        result["network_density"] = f"{low!r} + {high - low!r} * s" if high > low else ""
+        result["network_density"] = _straight(low, high) if high > low else ""
         result["network_field"] = fields["network_density"] if high > low else None
     return result
+
+
+def with_cell_size(given: Mapping[str, Any], bounds: Floats | None) -> dict[str, Any]:
+    """The keywords with a size, and what follows a field, in place of a field of cell sizes.
+
+    Raises:
+        VolfrepError: there is no box, another keyword says the same, or cells cannot follow.
+    """
+    size, network = given.get("cell_size"), given.get("network")
+    if not is_field("cell_size", size):
+        return dict(given)
+    if bounds is None:
+        raise VolfrepError(_needs_part("cell_size"))
+    spacing = float(np.ptp(bounds, axis=0).max()) / SAMPLES
+    field = field_of("cell_size", size, bounds, SAMPLES_ALONG_CELL * spacing)
+    result = dict(given)
+    if network in KINDS or isinstance(network, RandomGraph):
+        _only(given, "network_density", "network_field")
+        density, result["cell_size"] = points_by(field, bounds)
+        if isinstance(network, RandomGraph) and density is not None:
+            low, high = density.range
+            result["network"] = dataclasses.replace(
+                network, density=_straight(low, high), field=density
+            )
+        elif density is not None:
+            result["network_density"] = density
+        return result
+    _only(given, "size_grading")
+    grading, result["cell_size"] = cells_by(field, bounds)
+    if grading is not None:
+        result["size_grading"] = grading
+    return result
+
+
+def _only(given: Mapping[str, Any], *names: str) -> None:
+    """Refuse what is said by a field of cell sizes, too."""
+    for name in names:
+        if given.get(name) not in (None, "none", ""):
+            raise VolfrepError(f"'cell_size' is a field, which says as much: leave '{name}' out.")
+
+
+def _needs_part(name: str) -> str:
+    """What is said of a field without a part."""
+    return (
+        f"'{name}' is a function of places in a part: give it to 'fill', 'size', 'block' or "
+        "'mesh_network', which know the part."
+    )
+
+
+def _straight(low: float, high: float) -> str:
+    """The formula of s that goes from one value to another."""
+    return f"{low!r} + {high - low!r} * s"
 
 
 def radius_by(name: str, field: Field) -> tuple[RadiusGrading | None, float]:

@@ -21,7 +21,7 @@ from ..cells import make_cell
 from ..grading import Field
 from ..graphs import make_network
 from ..spec import LatticeSpec
-from .field_keywords import is_field, is_sampled, with_fields
+from .field_keywords import is_field, is_sampled, with_cell_size, with_fields
 from .parameter import REPEATED, Parameter
 from .specification import merge_values, specification, values_of
 from .table import BY_NAME, PARAMETERS
@@ -131,11 +131,12 @@ def own_data(
     if network is not None and not isinstance(network, str):
         result["network"] = as_graph(network)
     size = result.get("cell_size")
-    size = cell_size if size is None else size
+    size = cell_size if size is None or is_field("cell_size", size) else size
     bounds = None
     if box is not None and any(is_sampled(name, value) for name, value in result.items()):
         bounds = box(number("cell size", size, "mm", positive=True))
-    return with_fields(result, bounds, size)
+    result = with_cell_size(result, bounds)
+    return with_fields(result, bounds, result.get("cell_size") or size)
 
 
 def _value(name: str, value: Any) -> Any:

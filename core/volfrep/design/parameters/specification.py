@@ -15,7 +15,7 @@ from ..cells import any_cell, find_cell
 from ..grading import CellMap, Field, Orientation, RadiusGrading, SizeGrading, read_point_field
 from ..graphs import GivenGraph, RandomGraph
 from ..openings import DrainHoles, DrainPlace, OpenFace, OpenPatch, OpenPlane, SmoothFace
-from ..profile import Profile
+from ..profile import SAMPLED, Profile
 from ..scattered_field import read_curve
 from ..skins.kept_bodies import KeptBody, read_body
 from ..skins.own_faces import FaceSkin, KeptFace
@@ -243,7 +243,16 @@ def _radius_grading(
 
 
 def _word(kind: str) -> str:
-    """A profile's kind as users call it."""
+    """A profile's kind as users call it.
+
+    Raises:
+        VolfrepError: it has no word, because a field gave it.
+    """
+    if kind == SAMPLED:
+        raise VolfrepError(
+            "Cell sizes that follow a field have no entry in a file: give 'size_grading' and "
+            "'lambda_formula' in place of a 'cell_size' by place."
+        )
     return "formula" if kind == "expression" else kind
 
 

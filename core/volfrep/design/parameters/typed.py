@@ -34,8 +34,8 @@ class Keywords(TypedDict, total=False):
     """
     cell_map: Any
     """Cells along straight axes, about an axis, or about a centre; cartesian if not given."""
-    cell_size: float | str | None
-    """L: edge length of the cubic cell, mm, 1e-09 to 1e+06; 10 if not given."""
+    cell_size: float | ByPlace | None
+    """L: edge length of the cubic cell, mm, 1e-09 to 1e+06; 10 if not given; or by place."""
     cell_values: str
     """Numbers that the cell leaves to be chosen, such as 'arm = 0.15' of Re-entrant; 'volfrep
     cells' tells which.
@@ -206,9 +206,9 @@ class Keywords(TypedDict, total=False):
     """The point that stays in place when the lattice turns, mm; the middle of the part's box, or a
     cell map's centre if not given.
     """
-    shell: float | str | None
+    shell: float | ByPlace | None
     """Thickness of the closed skin; 0 for none: the lattice is cut at the outer surface, mm, 1e-09
-    to 1e+06; 2 if not given.
+    to 1e+06; 2 if not given; or by place.
     """
     shortest_stub: float | str | None
     """Take away struts with a free end that are shorter than this; 0 for none, mm, 0 or 1e-09 to

@@ -9,6 +9,7 @@ import tempfile
 import zipfile
 from pathlib import Path
 
+import FreeCAD as App
 import FreeCADGui as Gui
 from PySide import QtGui
 
@@ -20,7 +21,10 @@ from driving import (
     check,
     click,
     click_in_tree,
+    move_mouse,
     picture,
+    press_button,
+    red_share,
     run_checks,
     select,
     settle,
@@ -35,6 +39,19 @@ from driving import (
 def boxed():
     """A document with a box."""
     return new_infill.boxed("Print")
+
+
+def a_lattice(doc, box):
+    """A lattice in the box."""
+    from freecad_volfrep import make_lattice_infill
+
+    doc.openTransaction("Fill")
+    obj = make_lattice_infill(doc, box, CellSize=10, StrutRadius=1, ShellThickness=1, Resolution=10)
+    doc.recompute()
+    doc.commitTransaction()
+    box.Visibility = False
+    settle()
+    return obj
 
 
 def form(name):
@@ -206,9 +223,146 @@ def within_limits(doc, box):
         check("with thinner struts", written.Volume < 0.995 * obj.Mesh.Volume, written.Volume)
 
 
+@slow
+def find_a_cell(doc, box):
+    """Ask for a density and a modulus, pick in the chart, give the cell to an infill."""
+    obj = a_lattice(doc, box)
+    select(obj)
+    click(toolbar_button("Cell Library"))
+    wait_until(lambda: form("VolfrepCellLibrary") is not None)
+    click(part("Find...", "VolfrepCellLibrary"))
+    check("the window opens", wait_until(lambda: form("VolfrepCellFinder") is not None))
+    window = form("VolfrepCellFinder")
+    table = part("Answers", "VolfrepCellFinder")
+    check("cells are told at once", table.rowCount() > 15, table.rowCount())
+    picture("find_cells")
+    click(part("ModulusAsks", "VolfrepCellFinder"))
+    click(part("DensityAsks", "VolfrepCellFinder"))
+    type_into(part("Modulus", "VolfrepCellFinder"), "50")
+    wait_until(lambda: table.item(0, 3).text().startswith("50"), 10)
+    check("the lightest first", float(table.item(0, 2).text()) < float(table.item(5, 2).text()))
+    chart = part("CellChart", "VolfrepCellFinder")
+    move_mouse(chart.mapToGlobal(chart.place_of(3).toPoint()))
+    press_button()
+    settle()
+    check("a click in the chart picks", table.currentRow() == 3, table.currentRow())
+    picture("find_cells_of_a_modulus")
+    name, radius = table.item(3, 0).text(), float(table.item(3, 1).text())
+    undo = doc.UndoCount
+    click(part("Apply", "VolfrepCellFinder"))
+    settle()
+    check("the infill has the cell", obj.CellType == name, obj.CellType)
+    check("and its radius", abs(obj.StrutRadius.Value - radius) < 0.01, obj.StrutRadius)
+    check("that is one undo step", doc.UndoCount == undo + 1)
+    choose_word(part("Direction", "VolfrepCellFinder"), "111")
+    click(part("ModulusSlider", "VolfrepCellFinder"))
+    xdotool("key", "End")
+    settle()
+    wait_until(lambda: table.rowCount() == 0, 10)
+    check("nothing is so stiff", "No cell" in part("Note", "VolfrepCellFinder").text())
+    window.close()
+    form("VolfrepCellLibrary").close()
+
+
+@slow
+def turn_a_part(doc, box):
+    """A plate that stands on its edge is laid down: the directions, their figures, undo."""
+    box.Length, box.Width, box.Height = 40, 30, 5
+    box.Placement = App.Placement(App.Vector(), App.Rotation(App.Vector(1, 0.2, 0), 70))
+    doc.recompute()
+    Gui.SendMsgToActiveView("ViewFit")
+    select(box)
+    click(toolbar_button("Build Direction"))
+    check("the panel opens", wait_until(lambda: form("VolfrepOrientPanel") is not None, 10))
+    table = part("Directions", "VolfrepOrientPanel")
+    check("directions are told", wait_until(lambda: table.rowCount() > 1, 60))
+    check("the best is picked", table.currentRow() == 1, table.currentRow())
+    check("a solid has no print checks", not part("Check", "VolfrepOrientPanel").isVisible())
+    picture("orient")
+    table.selectRow(0)
+    settle()
+    picture("orient_as_it_is")
+    check("what hangs over is red", red_share("orient_as_it_is") > 0.004)
+    table.selectRow(1)
+    click(part("Turn", "VolfrepOrientPanel"))
+    lies = wait_until(lambda: abs(box.Shape.BoundBox.ZLength - 5) < 1e-3, 60)
+    check("the plate lies", lies, box.Shape.BoundBox)
+    settle()
+    picture("orient_turned")
+    answer_panel("Close")
+    wait_until(lambda: form("VolfrepOrientPanel") is None)
+    doc.undo()
+    settle()
+    check("undo takes it back", box.Shape.BoundBox.ZLength > 20)
+
+
+@slow
+def build_direction_of_an_infill(doc, box):
+    """Its print check looks along the direction that was picked."""
+    obj = a_lattice(doc, box)
+    select(obj)
+    click(toolbar_button("Build Direction"))
+    wait_until(lambda: form("VolfrepOrientPanel") is not None)
+    table = part("Directions", "VolfrepOrientPanel")
+    wait_until(lambda: table.rowCount() > 2, 60)
+    table.selectRow(2)
+    settle()
+    wanted = tuple(float(word) for word in table.item(2, 2).text().split(","))
+    click(part("Check", "VolfrepOrientPanel"))
+    made = wait_until(lambda: doc.getObject("PrintCheck") is not None, 60)
+    check("there is a print check", made)
+    found = doc.getObject("PrintCheck").BuildDirection
+    check("of that direction", (found - App.Vector(*wanted)).Length < 0.02, found)
+    picture("orient_infill")
+    answer_panel("Close")
+    wait_until(lambda: form("VolfrepOrientPanel") is None)
+
+
+@slow
+def coupons(doc, box):
+    """Coupons of an infill's lattice: two of the kinds, into the document and a folder."""
+    obj = a_lattice(doc, box)
+    with tempfile.TemporaryDirectory() as folder:
+
+        def fill_in(dialog):
+            for kind in ("tension", "bending"):
+                dialog.findChild(QtGui.QCheckBox, kind).click()
+            cells = dialog.findChild(QtGui.QSpinBox, "Cells")
+            cells.setFocus()
+            xdotool("windowfocus", int(dialog.winId()))
+            wait_until(cells.hasFocus)
+            xdotool("key", "ctrl+a")
+            xdotool("type", "2")
+            wait_until(lambda: cells.value() == 2)
+            dialog.findChild(QtGui.QLineEdit, "Folder").setText(folder)
+            picture("coupons_box")
+            ok = dialog.findChild(QtGui.QDialogButtonBox).button(QtGui.QDialogButtonBox.Ok)
+            ok.setFocus()
+            xdotool("key", "Return")
+
+        select(obj)
+        when_dialog(QtGui.QDialog, fill_in)
+        click(toolbar_button("Coupons"))
+        made = wait_until(lambda: doc.getObject("Coupons") is not None, 60)
+        check("coupons are there", made)
+        settle()
+        group = doc.getObject("Coupons").Group
+        check("two of them", [one.Label for one in group] == ["1 cube", "2 ladder"])
+        picture("coupons")
+        written = sorted(path.name for path in Path(folder).iterdir())
+        check("and files", written == ["1_cube.stl", "2_ladder.csv", "2_ladder.stl"], written)
+    doc.undo()
+    settle()
+    check("undo takes them away", doc.getObject("Coupons") is None)
+
+
 run_checks(
     "print",
     {
+        turn_a_part: boxed,
+        build_direction_of_an_infill: boxed,
+        coupons: boxed,
+        find_a_cell: boxed,
         bands_that_follow: boxed,
         change_bands: boxed,
         within_limits: boxed,

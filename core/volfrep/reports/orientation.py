@@ -105,6 +105,19 @@ class Orientations:
         vertices[:, 2] -= vertices[:, 2].min()
         return TriangleMesh(vertices, self.mesh.triangles)
 
+    def hanging(self, up: Sequence[float]) -> TriangleMesh:
+        """The facets that hang over, where they lie.
+
+        Args:
+            up: as of an `Orientation`.
+        """
+        a, b, c = self.mesh.corners()
+        normal = np.cross(b - a, c - a)
+        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        least = math.cos(math.radians(self.inclination))
+        _, _, over = _overhang(self.mesh, normal, np.array(up), least)
+        return compact(TriangleMesh(self.mesh.vertices, self.mesh.triangles[over]))
+
     def as_dict(self) -> dict[str, Any]:
         """The figures as plain JSON values."""
         return {
@@ -294,12 +307,7 @@ class _Judge:
         up = np.where(np.abs(up) < 1e-9, 0.0, up)
         up = up / np.linalg.norm(up)
         low, high = _span(self.corners, up)
-        fall = -(self.normal @ up)
-        flat = np.flatnonzero(fall > 0.99)
-        heights = self.mesh.vertices[self.mesh.triangles[flat]] @ up
-        on_plate = flat[(heights < low + ON_PLATE * (high - low)).all(axis=1)]
-        over = fall > self.least + 1e-6
-        over[on_plate] = False
+        fall, on_plate, over = _overhang(self.mesh, self.normal, up, self.least)
         rows = np.flatnonzero(over)
         inside = self.inside[rows]
         cost, under = self._cost(up, fall[rows], self.area[rows], inside, self.middle[rows])
@@ -319,6 +327,20 @@ class _Judge:
             footprint_mm2=footprint,
             cost=cost + BASE * (1.0 - min(base / footprint, 1.0)),
         )
+
+
+def _overhang(
+    mesh: TriangleMesh, normal: Floats, up: Floats, least: float
+) -> tuple[Floats, Ints, Bools]:
+    """(m,) how far facets look down, from -1 to 1; those on the plate; (m,) which hang over."""
+    low, high = _span(mesh.vertices, up)
+    fall = -(normal @ up)
+    flat = np.flatnonzero(fall > 0.99)
+    heights = mesh.vertices[mesh.triangles[flat]] @ up
+    on_plate = flat[(heights < low + ON_PLATE * (high - low)).all(axis=1)]
+    over = fall > least + 1e-6
+    over[on_plate] = False
+    return fall, on_plate, over
 
 
 def _in_rooms(mesh: TriangleMesh) -> Bools:

@@ -21,6 +21,7 @@ from volfrep.design.tpms import SURFACES
 from volfrep.util.errors import VolfrepError
 
 from .cell_entry import USES, Entry, entry_of
+from .cell_finder import show_cell_finder
 from .cell_properties import CellProperties
 
 #: Of the list's pictures and of the large one, px.
@@ -82,6 +83,13 @@ class CellLibrary(QtWidgets.QDialog):
                         "VolfrepCells", "Give the picked cell to the selected lattice infill"
                     ),
                     self.apply,
+                ),
+                (
+                    QT_TRANSLATE_NOOP("VolfrepCells", "Find..."),
+                    QT_TRANSLATE_NOOP(
+                        "VolfrepCells", "Find cells by their stiffness and density, in a chart"
+                    ),
+                    show_cell_finder,
                 ),
                 (QT_TRANSLATE_NOOP("VolfrepCells", "Close"), "", self.close),
             )

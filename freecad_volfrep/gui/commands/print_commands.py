@@ -41,3 +41,17 @@ def slicer_infill(obj: App.DocumentObject) -> None:
         Gui.Control.showDialog(SlicerPanel(made, is_new=True))
         return
     doc.abortTransaction()
+
+
+def make_specimens(infill: App.DocumentObject) -> None:
+    """Ask which coupons there are to be of an infill's lattice, and make them."""
+    from freecad_volfrep.gui.printing.coupon_box import ask_and_make
+
+    ask_and_make(infill)
+
+
+def orient_part(obj: App.DocumentObject) -> None:
+    """Open the panel of the directions in which a part is built best."""
+    from freecad_volfrep.gui.printing.orient_panel import open_orientations
+
+    open_orientations(obj)

@@ -42,7 +42,12 @@ from .infill_commands import (
     show_example,
     update_infill,
 )
-from .print_commands import slicer_infill, solid_or_slicer_infill
+from .print_commands import (
+    make_specimens,
+    orient_part,
+    slicer_infill,
+    solid_or_slicer_infill,
+)
 from .result_commands import (
     check_print,
     colour_infill,
@@ -139,6 +144,29 @@ _TABLE = (
         solid_or_slicer_infill,
         slicer_infill,
         A_SOLID_OR_SLICER_INFILL,
+    ),
+    Command(
+        "VOLFREP_Coupons",
+        "coupons.svg",
+        "Coupons",
+        "Make specimens of the selected infill's lattice to print, press, pull and measure, "
+        "numbered in relief",
+        "L, K",
+        selected_infill,
+        make_specimens,
+        AN_INFILL,
+    ),
+    Command(
+        "VOLFREP_Orient",
+        "orient.svg",
+        "Build Direction",
+        "Find how the selected lattice infill, or solid, is built with the least overhang and "
+        "support, and turn it so",
+        "L, J",
+        infill_or_solid_in_view,
+        orient_part,
+        AN_INFILL_OR_SOLID_IN_VIEW,
+        of_mesh="as it is",
     ),
     Command(
         "VOLFREP_CheckMesh",
@@ -303,12 +331,13 @@ PARTS: tuple[tuple[str, tuple[str, ...]], ...] = (
             "VOLFREP_OpenFaces",
             "VOLFREP_PreviewOnly",
             "VOLFREP_SlicerInfill",
+            "VOLFREP_Coupons",
         ),
     ),
     (QT_TRANSLATE_NOOP("VOLFREP_LookGroup", "Look"), ("VOLFREP_SectionView", "VOLFREP_ColourBy")),
     (
         QT_TRANSLATE_NOOP("VOLFREP_CheckGroup", "Check"),
-        ("VOLFREP_PrintCheck", "VOLFREP_CheckMesh", "VOLFREP_Statistics"),
+        ("VOLFREP_PrintCheck", "VOLFREP_Orient", "VOLFREP_CheckMesh", "VOLFREP_Statistics"),
     ),
     (
         QT_TRANSLATE_NOOP("VOLFREP_LoadsGroup", "Loads"),

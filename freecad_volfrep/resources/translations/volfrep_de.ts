@@ -1510,6 +1510,17 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_Coupons</name>
+    <message>
+      <source>Coupons</source>
+      <translation>Proben</translation>
+    </message>
+    <message>
+      <source>Make specimens of the selected infill's lattice to print, press, pull and measure, numbered in relief</source>
+      <translation>Proben vom Gitter der ausgewählten Füllung machen, zum Drucken, Drücken, Ziehen und Messen, mit Nummern im Relief</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_DesignStudy</name>
     <message>
       <source>Apply Design</source>
@@ -1638,6 +1649,17 @@
     <message>
       <source>Select a lattice infill and faces of its solid: they get no skin</source>
       <translation>Eine Gitterfüllung und Flächen ihres Volumenkörpers wählen: sie bekommen keine Haut</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Orient</name>
+    <message>
+      <source>Build Direction</source>
+      <translation>Baurichtung</translation>
+    </message>
+    <message>
+      <source>Find how the selected lattice infill, or solid, is built with the least overhang and support, and turn it so</source>
+      <translation>Finden, wie die ausgewählte Gitterfüllung oder der Körper mit den wenigsten Überhängen und Stützen gebaut wird, und so drehen</translation>
     </message>
   </context>
   <context>
@@ -1780,6 +1802,14 @@
     <message>
       <source>File</source>
       <translation>Datei</translation>
+    </message>
+    <message>
+      <source>Find cells by their stiffness and density, in a chart</source>
+      <translation>Zellen nach ihrer Steifigkeit und Dichte in einem Diagramm suchen</translation>
+    </message>
+    <message>
+      <source>Find...</source>
+      <translation>Suchen...</translation>
     </message>
     <message>
       <source>From Selection</source>
@@ -2133,6 +2163,41 @@
     </message>
   </context>
   <context>
+    <name>VolfrepCoupons</name>
+    <message>
+      <source>Bar with grips, for tension</source>
+      <translation>Stab mit Einspannungen, für Zug</translation>
+    </message>
+    <message>
+      <source>Beam, for bending on three points</source>
+      <translation>Balken, für Dreipunktbiegung</translation>
+    </message>
+    <message>
+      <source>Cells along the cube</source>
+      <translation>Zellen entlang des Würfels</translation>
+    </message>
+    <message>
+      <source>Cube between plates, for compression</source>
+      <translation>Würfel zwischen Platten, für Druck</translation>
+    </message>
+    <message>
+      <source>Folder for STL files</source>
+      <translation>Ordner für STL-Dateien</translation>
+    </message>
+    <message>
+      <source>Ladder of struts, whose diameters are measured</source>
+      <translation>Leiter aus Streben, deren Durchmesser gemessen werden</translation>
+    </message>
+    <message>
+      <source>Number of the first</source>
+      <translation>Nummer der ersten</translation>
+    </message>
+    <message>
+      <source>none: into the document only</source>
+      <translation>keiner: nur ins Dokument</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepCurve</name>
     <message>
       <source>Curve: {name}</source>
@@ -2264,6 +2329,73 @@ about {triangles} triangles, {size} MB as STL, {seconds} s to compute</source>
       <translation>{what}
 relative Dichte {density} %, Masse {mass} g
 etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepFinder</name>
+    <message>
+      <source>Density</source>
+      <translation>Dichte</translation>
+    </message>
+    <message>
+      <source>Find Cells</source>
+      <translation>Zellen suchen</translation>
+    </message>
+    <message>
+      <source>Modulus</source>
+      <translation>Modul</translation>
+    </message>
+    <message>
+      <source>No cell of the library has that: ask for something else.</source>
+      <translation>Das hat keine Zelle der Bibliothek: nach etwas anderem fragen.</translation>
+    </message>
+    <message>
+      <source>along</source>
+      <translation>entlang</translation>
+    </message>
+    <message>
+      <source>any: moduli over the solid's</source>
+      <translation>beliebig: Moduln über dem des Körpers</translation>
+    </message>
+    <message>
+      <source>cell</source>
+      <translation>Zelle</translation>
+    </message>
+    <message>
+      <source>density, %</source>
+      <translation>Dichte, %</translation>
+    </message>
+    <message>
+      <source>least strength</source>
+      <translation>kleinste Festigkeit</translation>
+    </message>
+    <message>
+      <source>modulus</source>
+      <translation>Modul</translation>
+    </message>
+    <message>
+      <source>modulus over the solid's</source>
+      <translation>Modul über dem des Körpers</translation>
+    </message>
+    <message>
+      <source>modulus, MPa</source>
+      <translation>Modul, MPa</translation>
+    </message>
+    <message>
+      <source>of</source>
+      <translation>aus</translation>
+    </message>
+    <message>
+      <source>r, mm</source>
+      <translation>r, mm</translation>
+    </message>
+    <message>
+      <source>relative density</source>
+      <translation>relative Dichte</translation>
+    </message>
+    <message>
+      <source>{count} cells, with L = {size:g} mm</source>
+      <translation>{count} Zellen, mit L = {size:g} mm</translation>
     </message>
   </context>
   <context>
@@ -2465,12 +2597,20 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Balken von {label}</translation>
     </message>
     <message>
+      <source>Build direction of {label}</source>
+      <translation>Baurichtung von {label}</translation>
+    </message>
+    <message>
       <source>Checking {label}</source>
       <translation>{label} wird geprüft</translation>
     </message>
     <message>
       <source>Colours of {label}</source>
       <translation>Farben von {label}</translation>
+    </message>
+    <message>
+      <source>Coupons of {label}</source>
+      <translation>Proben von {label}</translation>
     </message>
     <message>
       <source>Exact surfaces of {label}</source>
@@ -2620,6 +2760,53 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>.</source>
       <translation>,</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepOrient</name>
+    <message>
+      <source>Needs support below</source>
+      <translation>Braucht Stützen unter</translation>
+    </message>
+    <message>
+      <source>Set Build Direction</source>
+      <translation>Baurichtung setzen</translation>
+    </message>
+    <message>
+      <source>The part stays; its print checks look along this direction</source>
+      <translation>Das Teil bleibt; seine Druckprüfungen sehen entlang dieser Richtung</translation>
+    </message>
+    <message>
+      <source>Turn Part</source>
+      <translation>Teil drehen</translation>
+    </message>
+    <message>
+      <source>Turned: z is up, and it stands on z = 0.</source>
+      <translation>Gedreht: z ist oben, und es steht auf z = 0.</translation>
+    </message>
+    <message>
+      <source>height</source>
+      <translation>Höhe</translation>
+    </message>
+    <message>
+      <source>now</source>
+      <translation>jetzt</translation>
+    </message>
+    <message>
+      <source>overhang</source>
+      <translation>Überhang</translation>
+    </message>
+    <message>
+      <source>up</source>
+      <translation>oben</translation>
+    </message>
+    <message>
+      <source>{checks}: built along it.</source>
+      <translation>{checks}: entlang ihr gebaut.</translation>
+    </message>
+    <message>
+      <source>{inside} mm² of it in closed rooms; supports at most {support} mm³; stands on {base} mm², footprint {footprint} mm²</source>
+      <translation>{inside} mm² davon in geschlossenen Räumen; Stützen höchstens {support} mm³; steht auf {base} mm², Grundfläche {footprint} mm²</translation>
     </message>
   </context>
   <context>

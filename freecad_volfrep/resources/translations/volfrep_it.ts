@@ -1510,6 +1510,17 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_Coupons</name>
+    <message>
+      <source>Coupons</source>
+      <translation>Provini</translation>
+    </message>
+    <message>
+      <source>Make specimens of the selected infill's lattice to print, press, pull and measure, numbered in relief</source>
+      <translation>Crea provini del reticolo del riempimento selezionato da stampare, premere, tirare e misurare, numerati in rilievo</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_DesignStudy</name>
     <message>
       <source>Apply Design</source>
@@ -1638,6 +1649,17 @@
     <message>
       <source>Select a lattice infill and faces of its solid: they get no skin</source>
       <translation>Seleziona un riempimento reticolare e facce del suo solido: resteranno senza guscio</translation>
+    </message>
+  </context>
+  <context>
+    <name>VOLFREP_Orient</name>
+    <message>
+      <source>Build Direction</source>
+      <translation>Direzione di costruzione</translation>
+    </message>
+    <message>
+      <source>Find how the selected lattice infill, or solid, is built with the least overhang and support, and turn it so</source>
+      <translation>Trova come il riempimento reticolare o il solido selezionato si costruisce con meno sporgenze e supporti, e lo ruota così</translation>
     </message>
   </context>
   <context>
@@ -1780,6 +1802,14 @@
     <message>
       <source>File</source>
       <translation>File</translation>
+    </message>
+    <message>
+      <source>Find cells by their stiffness and density, in a chart</source>
+      <translation>Trova celle per rigidezza e densità, in un grafico</translation>
+    </message>
+    <message>
+      <source>Find...</source>
+      <translation>Trova...</translation>
     </message>
     <message>
       <source>From Selection</source>
@@ -2133,6 +2163,41 @@
     </message>
   </context>
   <context>
+    <name>VolfrepCoupons</name>
+    <message>
+      <source>Bar with grips, for tension</source>
+      <translation>Barra con afferraggi, per trazione</translation>
+    </message>
+    <message>
+      <source>Beam, for bending on three points</source>
+      <translation>Trave, per flessione su tre punti</translation>
+    </message>
+    <message>
+      <source>Cells along the cube</source>
+      <translation>Celle lungo il cubo</translation>
+    </message>
+    <message>
+      <source>Cube between plates, for compression</source>
+      <translation>Cubo fra piastre, per compressione</translation>
+    </message>
+    <message>
+      <source>Folder for STL files</source>
+      <translation>Cartella per file STL</translation>
+    </message>
+    <message>
+      <source>Ladder of struts, whose diameters are measured</source>
+      <translation>Scala di aste, i cui diametri si misurano</translation>
+    </message>
+    <message>
+      <source>Number of the first</source>
+      <translation>Numero del primo</translation>
+    </message>
+    <message>
+      <source>none: into the document only</source>
+      <translation>nessuna: solo nel documento</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepCurve</name>
     <message>
       <source>Curve: {name}</source>
@@ -2264,6 +2329,73 @@ about {triangles} triangles, {size} MB as STL, {seconds} s to compute</source>
       <translation>{what}
 densità relativa {density} %, massa {mass} g
 circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepFinder</name>
+    <message>
+      <source>Density</source>
+      <translation>Densità</translation>
+    </message>
+    <message>
+      <source>Find Cells</source>
+      <translation>Trova celle</translation>
+    </message>
+    <message>
+      <source>Modulus</source>
+      <translation>Modulo</translation>
+    </message>
+    <message>
+      <source>No cell of the library has that: ask for something else.</source>
+      <translation>Nessuna cella della libreria ha ciò: chiedere altro.</translation>
+    </message>
+    <message>
+      <source>along</source>
+      <translation>lungo</translation>
+    </message>
+    <message>
+      <source>any: moduli over the solid's</source>
+      <translation>qualsiasi: moduli su quello del solido</translation>
+    </message>
+    <message>
+      <source>cell</source>
+      <translation>cella</translation>
+    </message>
+    <message>
+      <source>density, %</source>
+      <translation>densità, %</translation>
+    </message>
+    <message>
+      <source>least strength</source>
+      <translation>resistenza minima</translation>
+    </message>
+    <message>
+      <source>modulus</source>
+      <translation>modulo</translation>
+    </message>
+    <message>
+      <source>modulus over the solid's</source>
+      <translation>modulo su quello del solido</translation>
+    </message>
+    <message>
+      <source>modulus, MPa</source>
+      <translation>modulo, MPa</translation>
+    </message>
+    <message>
+      <source>of</source>
+      <translation>di</translation>
+    </message>
+    <message>
+      <source>r, mm</source>
+      <translation>r, mm</translation>
+    </message>
+    <message>
+      <source>relative density</source>
+      <translation>densità relativa</translation>
+    </message>
+    <message>
+      <source>{count} cells, with L = {size:g} mm</source>
+      <translation>{count} celle, con L = {size:g} mm</translation>
     </message>
   </context>
   <context>
@@ -2465,12 +2597,20 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Travi di {label}</translation>
     </message>
     <message>
+      <source>Build direction of {label}</source>
+      <translation>Direzione di costruzione di {label}</translation>
+    </message>
+    <message>
       <source>Checking {label}</source>
       <translation>Controllo di {label}</translation>
     </message>
     <message>
       <source>Colours of {label}</source>
       <translation>Colori di {label}</translation>
+    </message>
+    <message>
+      <source>Coupons of {label}</source>
+      <translation>Provini di {label}</translation>
     </message>
     <message>
       <source>Exact surfaces of {label}</source>
@@ -2620,6 +2760,53 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>.</source>
       <translation>,</translation>
+    </message>
+  </context>
+  <context>
+    <name>VolfrepOrient</name>
+    <message>
+      <source>Needs support below</source>
+      <translation>Richiede supporti sotto</translation>
+    </message>
+    <message>
+      <source>Set Build Direction</source>
+      <translation>Imposta direzione di costruzione</translation>
+    </message>
+    <message>
+      <source>The part stays; its print checks look along this direction</source>
+      <translation>Il pezzo resta; le sue verifiche di stampa guardano lungo questa direzione</translation>
+    </message>
+    <message>
+      <source>Turn Part</source>
+      <translation>Ruota il pezzo</translation>
+    </message>
+    <message>
+      <source>Turned: z is up, and it stands on z = 0.</source>
+      <translation>Ruotato: z è in alto, e poggia su z = 0.</translation>
+    </message>
+    <message>
+      <source>height</source>
+      <translation>altezza</translation>
+    </message>
+    <message>
+      <source>now</source>
+      <translation>ora</translation>
+    </message>
+    <message>
+      <source>overhang</source>
+      <translation>sporgenza</translation>
+    </message>
+    <message>
+      <source>up</source>
+      <translation>alto</translation>
+    </message>
+    <message>
+      <source>{checks}: built along it.</source>
+      <translation>{checks}: costruito lungo di essa.</translation>
+    </message>
+    <message>
+      <source>{inside} mm² of it in closed rooms; supports at most {support} mm³; stands on {base} mm², footprint {footprint} mm²</source>
+      <translation>{inside} mm² in vani chiusi; supporti al massimo {support} mm³; poggia su {base} mm², impronta {footprint} mm²</translation>
     </message>
   </context>
   <context>

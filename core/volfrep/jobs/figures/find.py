@@ -15,6 +15,7 @@ from ...mechanics.tensor import young
 from ...util.arguments import check_kind, three_numbers
 from ...util.errors import VolfrepError, brief
 from ...util.numbers import number
+from ...util.types import Floats
 
 #: Places between a cell's thinnest and thickest struts at which its modulus is looked at.
 _PLACES = 49
@@ -74,6 +75,32 @@ def find_lattices(
     if modulus is None:
         return sorted(found, key=lambda one: -one.young(way))
     return sorted(found, key=lambda one: abs(np.log(max(one.young(way), 1e-300) / modulus)))
+
+
+def cell_curves(
+    direction: str | tuple[float, float, float] = "100",
+) -> dict[str, tuple[Floats, Floats]]:
+    """What each cell of the catalogue can have, for a chart.
+
+    Args:
+        direction: as of `find_lattices`.
+
+    Returns:
+        Relative densities and Young's moduli along the direction, over the solid's, by cell.
+
+    Raises:
+        VolfrepError: the direction is none.
+
+    >>> densities, moduli = cell_curves("z")["Octet"]
+    >>> len(densities) == len(moduli) > 5
+    True
+    """
+    way = np.array(direction_of(direction))
+    found = {}
+    for name, cell in catalogue().items():
+        moduli = np.array([young(cell.tensor(ratio), way) for ratio in cell.ratios])
+        found[name] = (cell.values[:, 0], moduli)
+    return found
 
 
 def direction_of(direction: str | tuple[float, float, float]) -> tuple[float, float, float]:

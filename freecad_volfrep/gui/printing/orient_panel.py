@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The task panel of build directions: their figures, what hangs over in red, and what to do."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import FreeCAD as App
+import FreeCADGui as Gui
+import numpy as np
+
+from freecad_volfrep import ICONS, preferences
+from freecad_volfrep.features.reports.build_direction import (
+    find_directions,
+    first_inclination,
+    is_infill,
+    set_build_direction,
+    turn_part,
+)
+from freecad_volfrep.gui.draw import drawing
+from freecad_volfrep.gui.messages import WRONG, errors_shown
+from freecad_volfrep.gui.qt import CLOSE, QtCore, QtGui, QtWidgets
+from freecad_volfrep.gui.undo import undo_step
+from freecad_volfrep.gui.widgets.panel_manners import (
+    PanelForm,
+    entitle,
+    fits_any_width,
+    leave_the_wheel,
+)
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, translate
+from volfrep.util.errors import VolfrepError
+
+if TYPE_CHECKING:
+    from volfrep.reports.orientation import Orientation, Orientations
+
+_CONTEXT = "VolfrepOrient"
+HEADS = (
+    QT_TRANSLATE_NOOP("VolfrepOrient", "overhang"),
+    QT_TRANSLATE_NOOP("VolfrepOrient", "height"),
+    QT_TRANSLATE_NOOP("VolfrepOrient", "up"),
+)
+#: The arrow's length over the part's diagonal; how near facets are drawn before the part.
+ARROW, NEARER = 0.5, 4e-4
+#: How far facets are seen through that the part hides.
+HIDDEN = 0.4
+
+
+class OrientPanel:
+    """Finds the build directions of a part, shows the picked one, and turns the part to it.
+
+    Args:
+        obj: a lattice infill with a mesh, or a solid.
+    """
+
+    def __init__(self, obj: App.DocumentObject) -> None:
+        self._obj, self._doc = obj, obj.Document
+        self._found: Orientations | None = None
+        self._node: Any = None
+        self._scene = Gui.getDocument(self._doc.Name).activeView().getSceneGraph()
+        self.form = self._build()
+        # Once FreeCAD has put the panel up.
+        QtCore.QTimer.singleShot(0, self.find)
+
+    def getStandardButtons(self) -> int:  # noqa: N802
+        """Close."""
+        return CLOSE
+
+    def reject(self) -> bool:
+        """Close."""
+        self._clear()
+        Gui.Control.closeDialog()
+        return True
+
+    def find(self) -> None:
+        """Find the directions for the inclination in the field."""
+        self._clear()
+        with errors_shown():
+            self._found = find_directions(self._obj, self._inclination.value())
+        self._show()
+
+    def turn(self) -> None:
+        """Turn the part to the picked direction, as one undo step, and look at it anew."""
+        chosen = self._chosen()
+        if self._found is None or chosen is None:
+            return
+        try:
+            with undo_step(self._doc, translate(_CONTEXT, "Turn Part")):
+                turn_part(self._obj, self._found, chosen)
+                self._doc.recompute()
+        except VolfrepError as error:
+            self._say(str(error), wrong=True)
+            return
+        self.find()
+        self._say(translate(_CONTEXT, "Turned: z is up, and it stands on z = 0."))
+
+    def check(self) -> None:
+        """Let the infill's print checks be of the picked direction, as one undo step."""
+        chosen = self._chosen()
+        if chosen is None:
+            return
+        try:
+            with undo_step(self._doc, translate(_CONTEXT, "Set Build Direction")):
+                checks = set_build_direction(self._obj, chosen.up)
+                self._doc.recompute()
+        except VolfrepError as error:
+            self._say(str(error), wrong=True)
+            return
+        names = ", ".join(one.Label for one in checks)
+        self._say(translate(_CONTEXT, "{checks}: built along it.").format(checks=names))
+
+    def _build(self) -> Any:
+        form = PanelForm()
+        form.setObjectName("VolfrepOrientPanel")
+        entitle(form, self._obj.Label)
+        form.setWindowIcon(QtGui.QIcon(str(ICONS / "orient.svg")))
+        column = QtWidgets.QVBoxLayout(form)
+        column.setContentsMargins(0, 0, 0, 0)
+        line = QtWidgets.QHBoxLayout()
+        line.addWidget(QtWidgets.QLabel(translate(_CONTEXT, "Needs support below")))
+        self._inclination = QtWidgets.QDoubleSpinBox()
+        self._inclination.setObjectName("Inclination")
+        self._inclination.setRange(0.0, 90.0)
+        self._inclination.setDecimals(0)
+        self._inclination.setSuffix("\u00b0")
+        self._inclination.setValue(first_inclination(self._obj))
+        self._inclination.setKeyboardTracking(False)
+        self._inclination.valueChanged.connect(lambda _: self.find())
+        line.addWidget(self._inclination, 1)
+        column.addLayout(line)
+        self._table = QtWidgets.QTableWidget(0, len(HEADS))
+        self._table.setObjectName("Directions")
+        self._table.setHorizontalHeaderLabels([translate(_CONTEXT, head) for head in HEADS])
+        self._table.setSelectionBehavior(QtWidgets.QAbstractItemView.SelectRows)
+        self._table.setSelectionMode(QtWidgets.QAbstractItemView.SingleSelection)
+        self._table.setEditTriggers(QtWidgets.QAbstractItemView.NoEditTriggers)
+        self._table.horizontalHeader().setStretchLastSection(True)
+        self._table.currentCellChanged.connect(lambda *_: self._pick())
+        column.addWidget(self._table, 1)
+        self._text = QtWidgets.QLabel()
+        self._text.setObjectName("Figures")
+        fits_any_width(self._text)
+        column.addWidget(self._text)
+        self._buttons = []
+        for name, text, act in (
+            ("Turn", translate(_CONTEXT, "Turn Part"), self.turn),
+            ("Check", translate(_CONTEXT, "Set Build Direction"), self.check),
+        ):
+            button = QtWidgets.QPushButton(text)
+            button.setObjectName(name)
+            button.setAutoDefault(False)
+            button.clicked.connect(lambda _=False, act=act: act())
+            button.setEnabled(False)
+            column.addWidget(button)
+            self._buttons.append(button)
+        self._buttons[1].setVisible(is_infill(self._obj))
+        self._buttons[1].setToolTip(
+            translate(_CONTEXT, "The part stays; its print checks look along this direction")
+        )
+        leave_the_wheel(form, [self._inclination])
+        return form
+
+    def _rows(self) -> list[Orientation]:
+        """As it is, and the best."""
+        found = self._found
+        return [] if found is None else [found.as_it_is, *found.best]
+
+    def _show(self) -> None:
+        rows = self._rows()
+        self._table.blockSignals(True)
+        self._table.setRowCount(len(rows))
+        for number, one in enumerate(rows):
+            up = ", ".join(f"{part:.2f}" for part in one.up)
+            over, height = figure(one.overhang_mm2, 3), figure(one.height_mm, 3)
+            texts = (f"{over} mm\u00b2", f"{height} mm", up)
+            for place, text in enumerate(texts):
+                self._table.setItem(number, place, QtWidgets.QTableWidgetItem(text))
+        name = translate(_CONTEXT, "now")
+        self._table.setVerticalHeaderLabels([name, *map(str, range(1, len(rows)))])
+        self._table.resizeColumnsToContents()
+        self._table.blockSignals(False)
+        if rows:
+            self._table.selectRow(min(1, len(rows) - 1))
+            self._pick()
+
+    def _chosen(self) -> Orientation | None:
+        rows, number = self._rows(), self._table.currentRow()
+        return rows[number] if 0 <= number < len(rows) else None
+
+    def _pick(self) -> None:
+        """Show the direction that is picked, and what hangs over then."""
+        from pivy import coin
+
+        chosen, found = self._chosen(), self._found
+        for button in self._buttons:
+            button.setEnabled(chosen is not None)
+        if chosen is None or found is None:
+            return
+        text = translate(
+            _CONTEXT,
+            "{inside} mm\u00b2 of it in closed rooms; supports at most {support} mm\u00b3; stands "
+            "on {base} mm\u00b2, footprint {footprint} mm\u00b2",
+        )
+        figures = {
+            "inside": chosen.inside_mm2, "support": chosen.support_mm3,
+            "base": chosen.base_mm2, "footprint": chosen.footprint_mm2,
+        }  # fmt: skip
+        self._say(text.format(**{name: figure(value, 4) for name, value in figures.items()}))
+        self._clear()
+        low, high = found.mesh.bounds
+        middle, reach = (low + high) / 2.0, ARROW * float(np.linalg.norm(high - low))
+        up = np.array(chosen.up)
+        tip = middle + reach * up
+        side = np.cross(up, np.eye(3)[int(np.argmin(np.abs(up)))])
+        side /= np.linalg.norm(side)
+        barbs = [tip - 0.12 * reach * up + way * 0.06 * reach * side for way in (-1.0, 1.0)]
+        starts = np.array([middle, tip, tip])
+        ends = np.array([tip, *barbs])
+        hanging = found.hanging(chosen.up)
+        colour = preferences.colour(preferences.OVERHANG_COLOUR)
+        shaft = drawing.material((0.0, 0.5, 0.2))
+        shaft.diffuseColor = (0.0, 0.55, 0.25)
+        parts = [drawing.unpickable(), drawing.separate(shaft, drawing.lines(starts, ends, 4.0))]
+        if len(hanging.triangles):
+            red = drawing.material(colour)
+            shape = drawing.faces(hanging)
+            parts.append(drawing.separate(drawing.nearer(NEARER), red, shape))
+            through = coin.SoDepthBuffer()
+            through.test, through.write = False, False
+            clear = drawing.material(colour, HIDDEN)
+            clear.diffuseColor = tuple(colour[:3])
+            look = (drawing.see_through(), through, drawing.flat_light(), clear)
+            parts.append(drawing.separate(*look, shape))
+        self._node = drawing.separate(*parts)
+        self._scene.addChild(self._node)
+
+    def _clear(self) -> None:
+        """Leave nothing in the view."""
+        if self._node is not None:
+            self._scene.removeChild(self._node)
+            self._node = None
+
+    def _say(self, text: str, wrong: bool = False) -> None:
+        self._text.setStyleSheet(WRONG if wrong else "")
+        self._text.setText(text)
+
+
+def open_orientations(obj: App.DocumentObject) -> None:
+    """Open the panel of a part's build directions."""
+    Gui.Selection.clearSelection()  # its colour would hide what is shown
+    Gui.Control.showDialog(OrientPanel(obj))

@@ -12,6 +12,8 @@ from ..fem.model import Case
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
 from .node_radii import NodeRadii
+from .shell_elements import Shells
+from .skin import SkinModel
 from .skin_thickness import SkinThickness
 from .structure import Structure
 from .strut_results import buckling_loads, columns_of, stresses
@@ -34,7 +36,7 @@ class Limits:
         displacement: of any node, mm.
         buckling: how many times the load may be before the first strut buckles by itself.
         frequency: the lowest natural one, Hz, with the first case's supports.
-        frame_buckling: how many times it may be before struts buckle together.
+        frame_buckling: how many times it may be before struts and skin buckle together.
         skin_stress: von Mises on both sides of a skin that is varied, MPa, on all but
             `util.peaks.PEAKS` of its area.
     """
@@ -74,6 +76,7 @@ class Problem:
         felt: (m,) how many times as stressed struts are as their beams say, where another solver
             has found more; None for as they say.
         skin: what of the variables is the skin's; None where it is not varied.
+        around: the skin, varied or not, whose nodes are the structure's last ones; None for none.
     """
 
     structure: Structure
@@ -85,6 +88,20 @@ class Problem:
     smoother: csr_matrix | None = None
     felt: Floats | None = None
     skin: SkinThickness | None = None
+    around: SkinModel | None = None
+
+    @property
+    def skin_first(self) -> int:
+        """The row of the skin's first node among the structure's."""
+        skin = self.around
+        return len(self.structure.nodes) - (0 if skin is None else len(skin.outside.vertices))
+
+    def shells(self, radii: Floats) -> Shells | None:
+        """The skin's shells with the thickness of a design; None without a skin."""
+        if self.around is None:
+            return None
+        own = self.around.shells
+        return own if self.skin is None else own.of_thickness(self.skin.of_shells(radii))
 
     def structure_of(self, radii: Floats) -> Structure:
         """The structure with the skin of a design."""
@@ -113,8 +130,8 @@ class Analysis:
         stress: (m, 2, k) von Mises at both ends of every strut, MPa.
         buckling: (m, k) share of its buckling load that every strut carries.
         frequency: lowest, Hz; nan where it was not asked for.
-        factors: (k,) how many times each case's load may be before struts buckle together, inf
-            where they never do; nan where it was not asked for.
+        factors: (k,) how many times each case's load may be before struts and skin buckle
+            together, inf where they never do; nan where it was not asked for.
         uses: by the name of each limit that is given, the largest share of it that is used: 1 at
             the limit.
         worst: by the same names, the case (or -1) and the strut, node or shell where that is.
@@ -221,10 +238,9 @@ def analyse(
     together: list[tuple[Floats, Floats]] = []
     if limits.frame_buckling is not None:
         columns, count = columns_of(beams, of_struts), _MODES if with_changes else 1
-        together = [
-            structure.buckling(columns, forces[:, :, k], factor, count)
-            for k, factor in enumerate(factors)
-        ]
+        for k, factor in enumerate(factors):
+            pressed = _pressed(problem, radii, moved[:, :, k])
+            together.append(structure.buckling(columns, forces[:, :, k], factor, count, pressed))
         first = int(np.argmin([found[0] for found, _ in together]))
         uses["frame buckling"] = limits.frame_buckling / float(together[first][0][0])
         bent = structure.forces(of_struts, together[first][1][:, :, :1])
@@ -300,11 +316,14 @@ def analyse(
         for place, mode in zip(found[lowest], modes.transpose(2, 0, 1)[lowest], strict=True):
             own = forces[:, :, k]
             stiffer = _columns_change(problem, radii, place * own, mode)
+            turned_skin, pulled_skin = _pressed_change(problem, radii, moved[:, :, k], mode)
+            stiffer = stiffer + place * turned_skin
             strain = place * columns.turned_by(place * own, mode)
             way, held_by = beams.strained(columns.flexibility, strain)
             pull = np.zeros(moved.shape[:2])
             np.add.at(pull, beams.struts[:, 0], way[:, 0])
             np.add.at(pull, beams.struts[:, 1], way[:, 1])
+            pull += place * pulled_skin
             back = structure.answers(factors[k : k + 1], pull[:, :, None])
             virtual = structure.forces(of_struts, back) - held_by[:, :, None]
             more = change(virtual, forces[:, :, k : k + 1], back, moved[:, :, k : k + 1])[:, 0]
@@ -356,6 +375,36 @@ def _columns_change(problem: Problem, radii: Floats, forces: Floats, mode: Float
         bent = mode[:, :, None]
         of_all += skin.to_variables(radii, skin.work(radii, bent, bent))[:, 0]
     return of_all
+
+
+def _pressed(problem: Problem, radii: Floats, moved: Floats) -> Floats | None:
+    """(c, 6, 6) what the forces in the skin add to its stiffness, of displacements (nodes, 6)."""
+    if problem.around is None:
+        return None
+    return problem.around.pressed(moved[problem.skin_first :], problem.shells(radii))
+
+
+def _pressed_change(
+    problem: Problem, radii: Floats, moved: Floats, mode: Floats
+) -> tuple[Floats, Floats]:
+    """Derivatives of what the skin's forces do in a mode (nodes, 6).
+
+    Returns:
+        (n,) to the variables, displacements as they are; and (nodes, 6) to the displacements.
+    """
+    own, pull = np.zeros(len(radii)), np.zeros(moved.shape)
+    around, shells = problem.around, problem.shells(radii)
+    if around is None or shells is None:
+        return own, pull
+    first = problem.skin_first
+    felt = shells.pressed_work(around.of_middle(mode[first:, :, None])[:, :, 0])
+    if problem.skin is not None:
+        even = shells.in_plane(around.of_middle(moved[first:, :, None]))[:, :, 0]
+        own = problem.skin.to_variables(radii, (felt * even).sum(axis=1)[:, None])[:, 0]
+    middle = np.zeros((len(around.middle), 6))
+    np.add.at(middle, shells.triangles, shells.pulled_by(felt))
+    pull[first:] = around.to_outside(middle)
+    return own, pull
 
 
 def _mass_change(problem: Problem, radii: Floats, left: Floats, right: Floats) -> Floats:

@@ -224,7 +224,9 @@ def sizing_model(
         fixed[body_rows], loads[body_rows], moved[body_rows] = nodal.held, nodal.loads, nodal.moved
         x, y, z = nodal.acceleration.tolist()
         laid.append(Case(fixed, loads, moved if moved.any() else None, (x, y, z), nodal.name))
-    problem = Problem(structure, tuple(laid), shape, np.full(count, least), largest, there)
+    problem = Problem(
+        structure, tuple(laid), shape, np.full(count, least), largest, there, around=skin
+    )
     skin_volume = 0.0
     if skin is not None and solid is not None and domain is not None:
         skin_volume = solid.volume - domain.volume

@@ -139,18 +139,82 @@ class Shells:
             (shared * turns / 12.0).reshape(-1, 6, 6),
         )
 
-    def stresses(self, displacements: Floats) -> Floats:
-        """(t, k) the larger von Mises stress of both sides in the middle, MPa, of (n, 6, k)."""
-        plane = self._plane_stress()
+    def in_plane(self, displacements: Floats) -> Floats:
+        """(t, 3, k) xx, yy and xy in the triangles' axes, MPa, mean over the thickness."""
         moved = _in_axes(displacements[self.triangles], self.axes)
+        return np.asarray(self._plane_stress() @ (self._strains() @ moved))
+
+    def pressed(self, displacements: Floats) -> Floats:
+        """(9 t, 6, 6) blocks as of `unit_blocks` that the stress in the plane adds to stiffness.
+
+        Of displacements (n, 6), which may be so many times as large.
+        """
+        force = self.thickness[:, None] * self.in_plane(displacements[:, :, None])[:, :, 0]
+        slopes = self._slopes()
+        one, two, both = force.T
+        way = np.stack([np.stack([one, both], axis=1), np.stack([both, two], axis=1)], axis=1)
+        pulled = way[:, None, None] @ slopes
+        flat = (len(force), -1, 18)
+        weight = (self.area / 3.0)[:, None, None]
+        whole = weight * (slopes.reshape(flat).swapaxes(1, 2) @ pulled.reshape(flat))
+        return _split(whole, self.axes)
+
+    def pressed_work(self, mode: Floats) -> Floats:
+        """(t, 3) of a mode (n, 6): what `pressed` does in it, for a force of 1 N/mm each way."""
+        moved = _in_axes(mode[self.triangles][..., None], self.axes)[:, None, None]
+        x, y = (self._slopes() @ moved)[..., 0].transpose(3, 0, 1, 2)
+        each = np.stack([x * x, y * y, 2.0 * x * y], axis=1).sum(axis=(2, 3))
+        return np.asarray((self.area / 3.0)[:, None] * each)
+
+    def pulled_by(self, force: Floats) -> Floats:
+        """(t, 3, 6) at the corners: derivative of forces in the plane (t, 3), times (t, 3) of them.
+
+        In global axes, to the displacements of the corners.
+        """
+        stress = (self.thickness[:, None] * force) @ self._plane_stress()
+        local = np.einsum("tsi,ts->ti", self._strains(), stress).reshape(-1, 3, 2, 3)
+        return np.asarray(np.einsum("tij,tcgi->tcgj", self.axes, local).reshape(-1, 3, 6))
+
+    def _strains(self) -> Floats:
+        """(t, 3, 18) strains in the plane, of displacements and turns of the corners."""
         (x, y) = (self.corners[..., 0], self.corners[..., 1])
         strain = np.zeros((len(x), 3, 18))
         for corner in range(3):
             one, two = (corner + 1) % 3, (corner + 2) % 3
             strain[:, 0, 6 * corner] = strain[:, 2, 6 * corner + 1] = y[:, one] - y[:, two]
             strain[:, 1, 6 * corner + 1] = strain[:, 2, 6 * corner] = x[:, two] - x[:, one]
-        strain /= (2.0 * self.area)[:, None, None]
-        even = plane @ (strain @ moved)
+        return np.asarray(strain / (2.0 * self.area)[:, None, None])
+
+    def _slopes(self) -> Floats:
+        """(t, 3, 3, 2, 18) slopes of the three displacements at the middles of the edges.
+
+        In the plane they are those of straight edges; across it those that the bending has.
+        """
+        strain, corners = self._strains(), self.corners
+        result = np.zeros((len(corners), 3, 3, 2, 18))
+        for corner in range(3):
+            across = strain[:, 0, 6 * corner], strain[:, 1, 6 * corner + 1]
+            for way in (0, 1):
+                for axis in (0, 1):
+                    result[:, :, axis, way, 6 * corner + axis] = across[way][:, None]
+        for place, (i, j) in enumerate(((0, 1), (1, 2), (2, 0))):
+            edge = corners[:, j] - corners[:, i]
+            long = np.linalg.norm(edge, axis=1)
+            along = edge / long[:, None]
+            # w,x is minus the turn about y, w,y the turn about x. Along the edge w is cubic.
+            for corner, sign in ((i, -1.0), (j, 1.0)):
+                result[:, place, 2, :, 6 * corner + 2] += sign * 1.5 * along / long[:, None]
+                for column, slope in ((4, (-1.0, 0.0)), (3, (0.0, 1.0))):
+                    own = along @ np.array(slope)
+                    result[:, place, 2, :, 6 * corner + column] += (
+                        0.5 * np.array(slope) - 0.75 * own[:, None] * along
+                    )
+        return result
+
+    def stresses(self, displacements: Floats) -> Floats:
+        """(t, k) the larger von Mises stress of both sides in the middle, MPa, of (n, 6, k)."""
+        plane = self._plane_stress()
+        even = self.in_plane(displacements)
         of = self.panels.of
         turned = _in_axes(displacements[self.panels.nodes], self.axes[of])[:, _ACROSS]
         curved = self._curvature(np.full(2, 1.0 / 3.0)) @ self._led() @ turned

@@ -136,6 +136,13 @@ class SkinModel:
         felt = (shells or self.shells).stresses(self.of_middle(displacements))
         return np.asarray(self._evened @ felt)
 
+    def pressed(self, displacements: Floats, shells: Shells | None = None) -> Floats:
+        """(c, 6, 6) what the stress in the shells' plane adds to `blocks`, of the nodes' (n, 6)."""
+        arms, nodes = _arms(self.outside.vertices, self.middle), self.shells.triangles
+        added = (shells or self.shells).pressed(arms @ displacements[:, :, None])
+        rows, columns = np.repeat(nodes, 3, axis=1).ravel(), np.tile(nodes, (1, 3)).ravel()
+        return np.asarray(arms[rows].swapaxes(1, 2) @ added @ arms[columns])
+
     @cached_property
     def _evened(self) -> csr_matrix:
         """(t, t) what makes means of what is poor, of shells that share a vertex with it."""
@@ -160,6 +167,11 @@ class SkinModel:
         """(n, 6, k) how the shells' corners move, of the nodes' displacements (n, 6, k)."""
         led: Floats = _arms(self.outside.vertices, self.middle) @ displacements
         return led
+
+    def to_outside(self, loads: Floats) -> Floats:
+        """(n, 6) loads on the nodes, of those on the shells' corners (n, 6)."""
+        arms = _arms(self.outside.vertices, self.middle)
+        return np.asarray(np.einsum("nij,ni->nj", arms, loads))
 
     def pad_of(self, nodes: Floats) -> Ints:
         """(k,) the vertex whose pad struts' ends at (k, 3) stand on."""

@@ -245,41 +245,57 @@ class Structure:
         return np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi), modes
 
     def buckling(
-        self, columns: Columns, forces: Floats, factor: Factored, count: int = 1
+        self,
+        columns: Columns,
+        forces: Floats,
+        factor: Factored,
+        count: int = 1,
+        pressed: Floats | None = None,
     ) -> tuple[Floats, Floats]:
-        """How many times the forces in the struts may be before these buckle together.
+        """How many times the forces may be before struts, and the skin, buckle together.
 
         Struts are columns whose joints move and turn. From a load factor below the lowest, at which
         the stiffness is still positive definite, the next ones are those of a linear problem; so
-        near to the lowest that a last step on what bends makes it right. A skin is as stiff as
-        without its forces.
+        near to the lowest that a last step on what bends makes it right.
 
         Args:
             columns: the struts.
             forces: (m, 6) in them, see `Beams.forces`.
             factor: the stiffness of the same radii.
             count: how many of the lowest.
+            pressed: (b, 6, 6) what the forces in a skin add to the first of the fixed blocks; None
+                for a skin that is as stiff as without them.
 
         Returns:
             (count,) load factors, inf where nothing buckles; and (n, 6, count) modes, each scaled
             so that the loads' work in it falls by 1 where the load factor rises by 1.
         """
         free, pulls = factor.free, forces[:, 0]
-        pressed = pulls < 0.0
-        if not pressed.any():
-            return np.full(count, np.inf), np.zeros((len(self.nodes), 6, count))
-        most = float((columns.clamped()[pressed] / -pulls[pressed]).min())
+        is_pressed = pulls < 0.0
+        nothing = np.full(count, np.inf), np.zeros((len(self.nodes), 6, count))
+        if pressed is None and not is_pressed.any():
+            return nothing
+        shares = columns.clamped()[is_pressed] / -pulls[is_pressed]
+        most = float(shares.min(initial=np.inf))
+        fixed, more = self._fixed_stiffness, None
+        if pressed is not None and fixed is not None and self.fixed_blocks is not None:
+            whole_blocks = np.zeros_like(self.fixed_blocks.stiffness)
+            whole_blocks[: len(pressed)] = pressed
+            more = self._pattern.constant(whole_blocks)
 
         def at(place: float) -> tuple[sparse.csc_matrix, sparse.csc_matrix]:
             whole, change = columns.blocks(place, forces)
-            stiffness = self._assembled(whole, self._fixed_stiffness)
-            return mask_fixed(stiffness, free), mask_fixed(self._assembled(change), free, 0.0)
+            stays = fixed if fixed is None or more is None else fixed + place * more
+            stiffness = self._assembled(whole, stays)
+            return mask_fixed(stiffness, free), mask_fixed(self._assembled(change, more), free, 0.0)
 
         place, solve, (matrix, change) = 0.0, factor.solve, at(0.0)
         vectors = np.where(free, np.cos(np.arange(len(free))), 0.0)[:, None]
         for _ in range(_SHIFTS):
             steps, vectors = _steps_to_singular(matrix, change, solve, vectors[:, 0], count)
             lowest = min(place + float(steps[0]), most)
+            if not np.isfinite(lowest):
+                return nothing
             if lowest - place <= _NEAR_BUCKLING * lowest:
                 break
             ahead = lowest

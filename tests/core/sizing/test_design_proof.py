@@ -87,6 +87,25 @@ def test_a_pressed_column_buckles_in_calculix_no_sooner_than_it_is_sized_for(cel
         assert made.sized.analysis.factors[0] == pytest.approx(factor, rel=0.03)
 
 
+@needs_calculix
+@pytest.mark.slow
+def test_a_pressed_tube_buckles_with_its_skin_as_calculix_says():
+    """A long one as a column; a short one by dimples of its skin between struts."""
+    for size_of, shell, cell in (((160, 20, 14), 1.0, 14.0), ((40, 30, 30), 0.4, 15.0)):
+        shape = trimesh.creation.box(size_of)
+        shape.apply_translation(np.array(size_of) / 2.0)
+        solid = check_solid(TriangleMesh(shape.vertices, shape.faces.astype(np.int32)), "tube")
+        foot, top = (InPlane((x, 0, 0), (1, 0, 0)) for x in (0.0, float(size_of[0])))
+        case = LoadCase("pressed", (Support(foot),), (Force(top, (-1000.0, 0, 0)),))
+        loads = LoadCases(find_material("Ti-6Al-4V"), (case,))
+        spec = LatticeSpec("CVC", cell_size=cell, strut_radius=0.5, shell=shell)
+        goal = Goal(Limits(buckling=5.0), thinnest=0.5)
+        made = size(solid, spec, loads, goal, most_steps=10)
+        assert made.sized.holds
+        there = made.report["calculix"]["buckling_factors"][0]
+        assert made.sized.analysis.factors[0] == pytest.approx(there, rel=0.08)
+
+
 def figures(**more):
     """What CalculiX says of a design that it confirms."""
     values = {

@@ -18,6 +18,7 @@ from volfrep.sizing.shell_elements import shells_of
 from volfrep.sizing.skin import Feet, skin_model, ties_to
 from volfrep.sizing.skin_mesh import even_surface
 from volfrep.sizing.structure import Structure
+from volfrep.sizing.strut_results import columns_of
 from volfrep.sizing.tapered_beams import Elastic, beams_of
 from volfrep.spatial.proximity import closest_points
 
@@ -309,3 +310,37 @@ def test_a_strut_that_ends_in_the_skin_moves_with_it():
     followed = np.einsum("tlij,tlj->ti", ties.blocks, rigid[ties.leaders])
     assert followed[:, :3] == pytest.approx(shift + np.cross(turn, ends))
     assert followed[:, 3:] == pytest.approx(np.tile(turn, (2, 1)))
+
+
+@pytest.mark.parametrize(("parts", "within"), [(2, 0.05), (4, 0.01)])
+def test_a_pressed_square_plate_buckles_at_4_pi2_d_over_b2(parts, within):
+    """Simply supported and pressed in one direction, so that its edges may move in its plane."""
+    nodes, triangles = plate(parts, parts, 100.0, 100.0)
+    turn = turned()
+    shells = shells_of(nodes, triangles, np.array(1.0), STEEL)
+    x, y, _ = nodes.T
+    ends, sides = (x < 1e-9) | (x > 100 - 1e-9), (y < 1e-9) | (y > 100 - 1e-9)
+    held = np.zeros((len(nodes), 6), bool)
+    held[:, [0, 1, 5]] = True  # what buckles goes across only
+    held[ends | sides, 2] = held[ends, 3] = held[sides, 4] = True
+    structure = Structure(nodes, NO_STRUTS, fixed_blocks=shells.blocks())
+    moved = np.zeros((len(nodes), 6))
+    moved[:, :2] = 1e-4 * np.stack([-x, 0.3 * y], axis=1)
+    columns = columns_of(NO_STRUTS, np.empty((0, 2)))
+    factor = structure.factored(np.empty((0, 2)), held)
+    found = structure.buckling(columns, np.empty((0, 6)), factor, pressed=shells.pressed(moved))[0]
+    stress = 4.0 * np.pi**2 * 210_000 / 12 / (1 - 0.3**2) / 100**2
+    assert found[0] * 21.0 == pytest.approx(stress, rel=within)
+    pulled = structure.buckling(columns, np.empty((0, 6)), factor, pressed=-shells.pressed(moved))
+    assert pulled[0][0] > 2.0 * found[0] or not np.isfinite(pulled[0][0])
+    askew = shells_of(nodes @ turn.T, triangles, np.array(1.0), STEEL)
+    way = np.concatenate([moved[:, :3] @ turn.T, moved[:, 3:] @ turn.T], axis=1)
+    mode = np.random.default_rng(0).normal(size=(len(nodes), 6))
+    felt = askew.pressed_work(mode)
+    forces = askew.in_plane(way[:, :, None])[:, :, 0]  # of 1 mm
+    rows = np.repeat(triangles, 3, axis=1).ravel(), np.tile(triangles, (1, 3)).ravel()
+    work = np.einsum("ci,cij,cj->", mode[rows[0]], askew.pressed(way), mode[rows[1]])
+    assert (felt * forces).sum() == pytest.approx(work)
+    pull = np.zeros_like(mode)
+    np.add.at(pull, triangles, askew.pulled_by(felt))
+    assert (pull * way).sum() == pytest.approx(work)

@@ -144,3 +144,17 @@ def test_flanges_of_a_cantilever_follow_the_moment():
     even = uniform(problem, Limits(skin_stress=stress))[0]
     assert np.ptp(skin.wanted(even.radii)) < 1e-9
     assert sized.analysis.volume < 0.9 * even.volume
+
+
+def test_a_closed_tube_buckles_as_eulers_column():
+    """Held at one end: pi2 E I / (4 length2), less what the load lets its end plate give way."""
+    length, width, height, wall = 160.0, 20.0, 14.0, 1.0
+    _, problem, first = tube(
+        (length, width, height), lambda region: Force(region, (-1000.0, 0, 0)),
+        bounds=(0.3, 3.0), patch=20.0, shell=wall, cell=14.0, radius=0.5,
+    )  # fmt: skip
+    found = analyse(problem, first, Limits(frame_buckling=1.0))[0]
+    b, h = width - wall, height - wall
+    inertia = wall * (b * h**2 / 2.0 + h**3 / 6.0)
+    euler = np.pi**2 * TITANIUM.young * inertia / (4.0 * (length - wall) ** 2)
+    assert found.factors[0] * 1000.0 == pytest.approx(euler, rel=0.03)

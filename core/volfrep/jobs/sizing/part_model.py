@@ -28,6 +28,8 @@ from .goal import Goal
 
 #: Edges of the skin's triangles over its thickness, at least.
 SKIN_EDGE_LEAST = 1.5
+#: They are so much shorter where the skin is kept from buckling: a dimple has four of them or more.
+DIMPLED = 0.5
 #: Steps in which the wall is found below a point; each leaves less than half of what was missing.
 _ALONG = 6
 
@@ -86,7 +88,10 @@ def part_model(
         )
     skin = None
     if spec.with_skin:
-        edge = max(infill.filling.skin_edge, SKIN_EDGE_LEAST * spec.shell)
+        edge = infill.filling.skin_edge
+        if goal.limits.frame_buckling is not None:
+            edge *= DIMPLED
+        edge = max(edge, SKIN_EDGE_LEAST * spec.shell)
         with infill.monitor.stage("skin", 0.3, 0.4):
             skin = skin_model(
                 infill.solid, thickness_of_skin(infill.solid, spec), edge, elastic(material),

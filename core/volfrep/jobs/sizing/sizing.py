@@ -37,7 +37,7 @@ from .notes import (
     left_out,
     limit_not_held,
     not_confirmed,
-    stiff_skin,
+    small_dimples,
     stressed_skin,
     too_dense,
     unproved,
@@ -306,7 +306,7 @@ def _notes_of(task: _Task, search: _Search) -> list[str]:
     notes = [] if sized.holds else [limit_not_held(model.problem, sized.analysis)]
     notes += stressed_skin(model, sized.analysis, limits, task.skin is not None)
     notes += free_motions(model.problem)
-    notes += left_out(task.infill.spec) + stiff_skin(model, limits)
+    notes += left_out(task.infill.spec) + small_dimples(model, limits)
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
     return notes

@@ -13,7 +13,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 .NOTPARALLEL:
 .PHONY: help setup setup-light demo check test test-all test-slow lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
-	digests vocabulary validate release test-release site test-escape torture fuzz bench bench-quick bench-readme catalogue clean
+	digests vocabulary validate release test-wheel test-release site test-escape torture fuzz bench bench-quick bench-readme catalogue clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -135,9 +135,9 @@ validate: setup ## predictions beside printed specimens, and the figures of docs
 torture: setup ## every broken, odd and real file beside what it must get
 	@PYTHONPATH=. $(PYTHON) tests/core/torture.py
 
-test-freecad-1: ## the workbench's tests in FreeCAD 1.0 and 1.1, each in a Debian of its own (root)
+test-freecad-1: ## the workbench's tests in FreeCAD 1.0 and 1.1, and the wheel, each in a Debian of its own (root)
 	@status=0; for suite in trixie forky; do \
-	tools/freecad_in.sh $$suite < /dev/null || status=$$?; done; exit $$status
+	tools/freecad_in.sh $$suite test-in-freecad test-wheel < /dev/null || status=$$?; done; exit $$status
 
 digests: setup ## whether a change altered a file that the command writes, 3 min (DIGESTS="--write")
 	@$(PYTHON) tools/digests.py $(DIGESTS)
@@ -148,17 +148,27 @@ vocabulary: setup ## whether a change altered a word that a user meets (VOCABULA
 test-newest: ## the engine's tests on the newest numpy, scipy and scikit-image
 	@tools/newest.sh
 
-release: setup-light ## what users get, from the tag of this version, in build/release (STATE=HEAD: any other state)
+SITE := .cache/site/bin/mkdocs
+$(SITE): tools/requirements-site.txt
+	@python3 -m venv .cache/site
+	@.cache/site/bin/pip install --quiet --disable-pip-version-check -r $<
+	@touch $@
+
+release: setup-light $(SITE) ## what users get, from the tag of this version, in build/release (STATE=HEAD: any other state)
 	@tools/release.sh $(STATE)
 
-test-release: setup-light ## what users get, made and tried: archive, wheel in every Python found here, site
+test-wheel: setup-light ## the wheel as users install it, in every Python found here
+	@rm -rf build/wheel
+	@$(PYTHON) -m pip wheel --quiet --disable-pip-version-check --no-deps -w build/wheel .
+	@rm -rf build/lib build/bdist.*
+	@$(PYTHON) tools/test_wheel.py build/wheel
+
+test-release: setup-light $(SITE) ## what users get, made and tried: archive, wheel in every Python found here, site
 	@tools/release.sh .
 	@$(PYTHON) tools/test_wheel.py build/release
 	@$(MAKE) --no-print-directory site
 
-site: setup ## the documentation as a site, in build/site: its examples are run; a warning is an error
-	@[ -x .cache/site/bin/mkdocs ] || { python3 -m venv .cache/site && \
-		.cache/site/bin/pip install --quiet --disable-pip-version-check -r tools/requirements-site.txt; }
+site: setup $(SITE) ## the documentation as a site, in build/site: its examples are run; a warning is an error
 	@$(PYTHON) tools/page_examples.py
 	@NO_MKDOCS_2_WARNING=1 .cache/site/bin/python tools/site.py
 

@@ -48,3 +48,12 @@ def test_the_page_of_promises_lists_every_public_name():
     text = (ROOT / "docs" / "promises.md").read_text(encoding="utf-8")
     listed = re.findall(r"`(\w+)`", text.partition("## Python")[2].partition("Their keywords")[0])
     assert sorted(listed) == sorted(volfrep.__all__)
+
+
+def test_the_package_gives_the_addresses_of_the_workbench():
+    """Of the package's metadata, which cannot read them from package.xml."""
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    listed = set(re.findall(r'^\w+ = "(https://.*)"$', project, re.MULTILINE))
+    package = ElementTree.parse(ROOT / "package.xml").getroot()
+    addresses = {url.get("type"): url.text for url in package.iter() if url.tag.endswith("url")}
+    assert listed == {addresses[kind] for kind in ("repository", "documentation", "bugtracker")}

@@ -30,6 +30,14 @@ ICONS = "freecad_volfrep/resources/icons"
 #: The table behind docs/validation.md, which it links to.
 SPECIMENS = "tools/validation/specimens.toml"
 
+#: Tables without headings, words of code that are not cut in two, and room for both.
+STYLE = """\
+.md-grid { max-width: 76rem; }
+.md-typeset table:not([class]) thead:not(:has(th:not(:empty))) { display: none; }
+.md-typeset td code { word-break: normal; }
+.md-typeset table:not([class]) td img { max-width: 11rem; display: block; }
+"""
+
 
 def public_names() -> list[str]:
     """The names that the package promises, from its source."""
@@ -97,7 +105,9 @@ def gather() -> None:
     reference = ["# Python", "", "Every name that the package promises, `volfrep.NAME`.", ""]
     where = homes()
     for name in sorted(public_names(), key=str.lower):
-        reference += [f"::: {where[name]}", "    options:", "      heading_level: 2", ""]
+        options = f"      heading: volfrep.{name}\n      toc_label: {name}\n      heading_level: 2"
+        reference += [f"::: {where[name]}", "    options:", options, ""]
+    (PAGES / "site.css").write_text(STYLE, "utf-8")
     (PAGES / "python.md").write_text("\n".join(reference), "utf-8")
 
 

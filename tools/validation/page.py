@@ -57,29 +57,30 @@ def best(own: dict[str, Any]) -> dict[str, float]:
 
 
 def specimen_table(specimens: list[dict[str, Any]], found: dict[str, Any]) -> str:
-    """A line for each figure of each specimen."""
+    """A line for each specimen: of each figure what was measured, and what is predicted."""
     lines = [
-        "| specimen | process, solid | size | figure | measured | nominal size | measured size "
-        "| source |\n|---|---|---|---|---|---|---|---|\n"
+        f"| specimen | process, solid | size | {' | '.join(NAMES.values())} | source |\n"
+        "|---|---|---|---|---|---|---|\n"
     ]
     for row in specimens:
-        own = found[row["name"]]
-        for figure in FIGURES:
-            if figure not in row:
-                continue
-            told = [
-                f"{_short(own[way][figure])} ({own[way][figure] / row[figure] - 1:+.0%})"
-                if way in own
-                else ""
-                for way in ("nominal", "measured")
-            ]
-            word = row.get("strength_is", "") if figure == "strength" else NAMES[figure]
-            word = f"{word}, MPa" if figure == "strength" else word
-            lines.append(
-                f"| {row['name']} | {row['process']}, {row['material']} | {_size(row)} | {word} "
-                f"| {_short(row[figure])} | {told[0]} | {told[1]} | {_source(row)} |\n"
-            )
+        told = " | ".join(_told(row, figure, found[row["name"]]) for figure in FIGURES)
+        lines.append(
+            f"| {row['name']} | {row['process']}, {row['material']} | {_size(row)} | {told} "
+            f"| {_source(row)} |\n"
+        )
     return "".join(lines)
+
+
+def _told(row: dict[str, Any], figure: str, own: dict[str, Any]) -> str:
+    """A figure that was measured, and its predictions with their errors."""
+    if figure not in row:
+        return ""
+    of_sizes = ", ".join(
+        f"{_short(values[figure])} ({values[figure] / row[figure] - 1:+.0%})"
+        for values in own.values()
+    )
+    word = row.get("strength_is", "strength") if figure == "strength" else ""
+    return f"{word} " * (word not in ("", "strength")) + f"{_short(row[figure])}: {of_sizes}"
 
 
 def _size(row: dict[str, Any]) -> str:

@@ -83,6 +83,13 @@ def refuse_expected(spec: LatticeSpec, volume: float, count: Sequence[int] | Non
     refuse_memory(spec, CERTAIN_SHARE * expected_triangles(spec, volume), count=count)
 
 
+def fits_surely(triangles: float, in_boolean: float) -> bool:
+    """Whether a job of so many triangles, and so many in the Boolean, is none to be refused."""
+    needed = triangles * costs.BYTES_PER_BLOCK_TRIANGLE
+    needed += in_boolean * costs.BYTES_PER_BOOLEAN_TRIANGLE
+    return needed <= free_memory() and triangles <= np.iinfo(np.int32).max // 3
+
+
 def refuse_memory(
     spec: LatticeSpec,
     triangles: float,
@@ -107,8 +114,10 @@ def refuse_memory(
     if needed <= free and triangles <= most:
         return
     excess = 1.2 * max(needed / free, triangles / most)
+    # Where the others are not in memory, those at the wall are what is told.
+    told, where = (triangles, "") if triangles else (in_boolean, " at its wall")
     raise VolfrepError(
-        f"This lattice would have about {triangles / 1e6:.3g} million triangles and "
+        f"This lattice would have about {told / 1e6:.3g} million triangles{where} and "
         f"{_takes(needed, free)}: {_what_fits(spec, excess, count)}."
     )
 

@@ -8,7 +8,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..design.memory_guard import cells_are_full, refuse_memory
+from ..design import costs
+from ..design.forecast import expected_triangles
+from ..design.memory_guard import CERTAIN_SHARE, cells_are_full, fits_surely, refuse_memory
 from ..design.spec import LatticeSpec
 from ..grid.strut_graph import Wireframe
 from ..mesh.triangle_mesh import TriangleMesh
@@ -20,6 +22,38 @@ from ..util.types import Bools
 #: Facets that stray more than so many times as far as asked for are told: 1.5 is what is kept to
 #: inside, and at the corners of blocks it is known to be 2 (docs/limits.md).
 TOLD = 2.25
+
+
+def refuse_before_skin(spec: LatticeSpec, solid: TriangleMesh, *, streamed: bool) -> None:
+    """Refuse a lattice within a skin that surely would not fit, before the skin is made.
+
+    By points of the part, where a lattice in all of it would not fit; by as many less as chance
+    may have put there.
+
+    Args:
+        spec: what to make; with a skin.
+        solid: the part, mm.
+        streamed: whether only the octants that the wall cuts are in memory.
+
+    Raises:
+        VolfrepError: it needs more memory than is free.
+    """
+    skin, layer = spec.skin, costs.CUT_LAYER * spec.cell_size
+    if skin is None or skin.bodies:  # what bodies leave is not known by the depth
+        return
+    at_wall = expected_triangles(spec, min(layer * solid.area, abs(solid.volume)))
+    held = 0.0 if streamed else expected_triangles(spec, abs(solid.volume))
+    if fits_surely(held, at_wall):
+        return
+    from .part_depth import PartDepth  # slow to load
+
+    depth = PartDepth(solid)
+    inside, beyond = (len(depth.points_below(skin.deepest + far)) for far in (0.0, 0.5 * layer))
+    each = abs(solid.volume) / len(depth.points_below(-np.inf))
+    # Half of the octants that the wall cuts lies on either side of it.
+    cut = 2.0 * max(inside - beyond - 2.0 * (inside - beyond) ** 0.5, 0.0)
+    held = 0.0 if streamed else expected_triangles(spec, each * max(inside - 2.0 * inside**0.5, 0))
+    refuse_memory(spec, CERTAIN_SHARE * held, CERTAIN_SHARE * expected_triangles(spec, each * cut))
 
 
 def refuse_too_large(

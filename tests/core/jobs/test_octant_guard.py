@@ -4,12 +4,16 @@
 import numpy as np
 import pytest
 
+import samples
 from volfrep import LatticeSpec
+from volfrep.design import memory_guard
 from volfrep.jobs.blocks import block
+from volfrep.jobs.infill import Infill
 from volfrep.jobs.octant_guard import TOLD, deviation_warnings
 from volfrep.octants import sdf
 from volfrep.octants.octant import octant_grid, octant_primitives
 from volfrep.octants.octant_mesh import mesh_octants, octant_spec
+from volfrep.util.errors import VolfrepError
 from volfrep.util.progress import Monitor
 
 SIZE = 10.0
@@ -51,3 +55,20 @@ def test_facets_that_stray_farther_than_promised_are_told_by_how_much(cell, is_t
 def test_fillets_have_no_distances_to_tell():
     _, wanted, octants = meshed("CVC", 0.8, fillet=0.6)
     assert not deviation_warnings(octants, wanted)
+
+
+@pytest.mark.parametrize("streamed", [False, True])
+def test_a_lattice_that_will_not_fit_is_refused_before_its_skin_is_made(monkeypatch, streamed):
+    part, spec = samples.box((40.0, 30.0, 20.0)), LatticeSpec("CVC", 2.0, 0.2, shell=1.0)
+    monkeypatch.setattr(memory_guard, "free_memory", lambda: 2e7)
+    infill = Infill(part, spec, streamed=streamed)
+    with pytest.raises(VolfrepError, match=r"free memory: .* would fit"):
+        _ = infill.part
+    assert "walls found" not in infill.monitor.work
+
+
+def test_a_lattice_that_fits_within_its_skin_only_is_not_refused(monkeypatch):
+    part, spec = samples.box((40.0, 30.0, 20.0)), LatticeSpec("CVC", 5.0, 0.5, shell=8.0)
+    # A fortieth of the part is left, which is less than the cells of all of it would take.
+    monkeypatch.setattr(memory_guard, "free_memory", lambda: 2e7)
+    assert Infill(part, spec).lattice is not None

@@ -96,6 +96,8 @@ class OctantLattice(PartLattice):
         spec, part = self.spec, self.part
         spec.kind.refuse_crossing()
         refuse_grid(part.solid, spec.grid)  # before the skin is made
+        if is_cut:
+            guard.refuse_before_skin(spec, part.solid, streamed=part.streamed)
         refuse_expected(spec, 0.0 if part.streamed else part.domain.mesh.volume)
         _ = self.struts  # refused before anything is meshed
         motion = None if self.is_moved else part.placement.motion

@@ -70,7 +70,9 @@ class StrutCellKind(LatticeKind):
 
     def roughly_solved(self, solid: TriangleMesh) -> LatticeSpec:
         """The specification with about the radius of its target."""
-        from ..rough_radius import solve_target_roughly
+        if self.spec.target is None:
+            return self.spec
+        from ..rough_radius import solve_target_roughly  # slow to load
 
         return solve_target_roughly(solid, self.spec)
 

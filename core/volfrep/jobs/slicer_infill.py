@@ -48,6 +48,9 @@ LAID = {
     "triangles": (1.0, 0.0, 0.26),
     "line": (1.0, 0.0, 0.25),
 }
+#: Slicers widen solid layers on slopes, where they are too narrow to be anchored, by so many lines
+#: (PrusaSlicer's `discover_horizontal_shells`).
+GROWN = 3.0
 #: Shares of a stack of solid layers at which it is looked for the part's end.
 _WITHIN_STACK = (0.25, 0.5, 0.75, 1.0)
 
@@ -328,10 +331,12 @@ def _add_up(
         monitor.tick(number / planes)
         z = low + depth * (number + 0.5)
         whole = part.slice(z)
-        inner = whole.offset(-wanted.wall_thickness) if wanted.walls else whole
+        inner = fill = whole.offset(-wanted.wall_thickness) if wanted.walls else whole
         for count, way in ((wanted.top_layers, 1.0), (wanted.bottom_layers, -1.0)):
             for share in _WITHIN_STACK if count else ():
                 inner = inner ^ part.slice(z + way * share * count * wanted.layer)
+        if wanted.top_layers or wanted.bottom_layers:
+            inner = inner - _grown(fill - inner, GROWN * wanted.line_width)
         walls += depth * float((whole - inner).area())
         for k, piece in enumerate([*pieces, None]):
             denser = inner ^ piece.slice(z) if piece is not None else None
@@ -340,6 +345,11 @@ def _add_up(
             borders[k] += depth * _perimeter(own)
             inner = denser
     return _Printed(walls, sparse, borders)
+
+
+def _grown(solid: manifold3d.CrossSection, reach: float) -> manifold3d.CrossSection:
+    """Where a slicer widens solid layers that are narrower than twice a reach, by as much."""
+    return (solid - solid.offset(-reach).offset(reach)).offset(reach)
 
 
 def _perimeter(section: manifold3d.CrossSection) -> float:

@@ -10,7 +10,7 @@ import dataclasses
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,7 +29,7 @@ from ..design.parameters.keywords import (
 )
 from ..design.sampled_field import sample_function
 from ..design.spec import LatticeSpec
-from ..io.solid import Solid, check_solid, read_solid
+from ..io.solid import MeshLike, Solid, solid_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.arguments import check_kind, check_path
 from ..util.cache import StageCache
@@ -53,18 +53,6 @@ if TYPE_CHECKING:
     from ..jobs.solving import Solved
     from ..loads.load_cases import LoadCases
     from ..reports.orientation import Orientations
-
-
-class MeshLike(Protocol):
-    """Anything with vertices and faces, such as a `trimesh.Trimesh`."""
-
-    @property
-    def vertices(self) -> ArrayLike:
-        """(n, 3) in mm."""
-
-    @property
-    def faces(self) -> ArrayLike:
-        """(m, 3) vertex numbers, counter-clockwise from outside."""
 
 
 def fill(
@@ -697,41 +685,8 @@ def as_solid(
     >>> round(solid.volume, 6), solid.bounds[1].tolist()
     (6000.0, [5.0, 10.0, 15.0])
     """
-    if isinstance(part, Solid):
-        return part
-    if isinstance(part, (str, os.PathLike)):
-        with shown(progress) as told:
-            return read_solid(part, unit, progress=told)
-    if unit is not None:
-        raise VolfrepError("A unit belongs to a file: give the arrays of a mesh in mm.")
-    if isinstance(part, TriangleMesh):
-        return check_solid(part, "mesh")
-    if isinstance(part, tuple) and len(part) == 2:
-        vertices, triangles = part
-    elif hasattr(part, "vertices") and hasattr(part, "faces"):
-        vertices, triangles = part.vertices, part.faces
-    else:
-        raise VolfrepError(
-            f"A part is a file's path, a mesh with vertices and faces, or a pair of arrays, not "
-            f"{type(part).__name__}."
-        )
-    try:
-        points, rows = np.asarray(vertices, np.float64), np.asarray(triangles)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise VolfrepError(
-            f"A mesh has (n, 3) vertices in mm and (m, 3) triangles, not {brief(part)}."
-        ) from error
-    shapes_fit = points.ndim == 2 and rows.ndim == 2 and points.shape[1] == rows.shape[1] == 3
-    if not shapes_fit or not len(rows) or rows.dtype.kind not in "iu":
-        raise VolfrepError(
-            "A mesh has (n, 3) vertices and (m, 3) triangles of whole numbers, not arrays of the "
-            f"shapes {points.shape} and {rows.shape}."
-        )
-    if rows.min() < 0 or rows.max() >= len(points):
-        raise VolfrepError(f"A triangle names a vertex that is not among the {len(points)}.")
-    if not np.isfinite(points).all():
-        raise VolfrepError("A vertex of the mesh has a coordinate that is not a finite number.")
-    return check_solid(TriangleMesh(points, rows.astype(np.int32)), "mesh")
+    with shown(progress) as told:
+        return solid_of(part, unit, told)
 
 
 def _asked(

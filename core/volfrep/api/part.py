@@ -63,8 +63,9 @@ class Part:
 
     def __repr__(self) -> str:
         report = self.report
+        struts = f"{report.struts:,} struts, " * bool(report.struts)
         return (
-            f"<Part of {report.lattice}: {report.struts:,} struts, "
+            f"<Part of {report.lattice}: {struts}"
             f"{report.triangles:,} triangles, {report.volume_mm3:,.1f} mm3, {report.mass_g:,.2f} g>"
         )
 

@@ -13,15 +13,17 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..mesh.float32_repair import remove_slivers, separate_vertices, shortest_edge
 from ..mesh.topology import Sides, edges_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.winding import Windings, windings
 from ..util.arguments import check_path
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, brief
 from ..util.numbers import place_text, plural
 from ..util.progress import Monitor, ProgressCallback
 from ..util.types import Bools, Ints
@@ -324,3 +326,58 @@ def _refuse_contact(mesh: TriangleMesh, name: str) -> None:
 def _near(met: Windings, words: str = " near ") -> str:
     """Where most of what is not enclosed once lies; nothing where no line met it."""
     return "" if met.place is None else words + place_text(met.place)
+
+
+class MeshLike(Protocol):
+    """Anything with vertices and faces, such as a `trimesh.Trimesh`."""
+
+    @property
+    def vertices(self) -> ArrayLike:
+        """(n, 3) in mm."""
+
+    @property
+    def faces(self) -> ArrayLike:
+        """(m, 3) vertex numbers, counter-clockwise from outside."""
+
+
+def solid_of(part: Any, unit: str | None = None, progress: ProgressCallback | None = None) -> Solid:
+    """A proved solid of what a script gives: a file, a mesh, or its vertices and triangles.
+
+    Raises:
+        VolfrepError: it is none.
+        Cancelled: the callback said so while FreeCAD read a CAD file.
+    """
+    if isinstance(part, Solid):
+        return part
+    if isinstance(part, (str, os.PathLike)):
+        return read_solid(part, unit, progress=progress)
+    if unit is not None:
+        raise VolfrepError("A unit belongs to a file: give the arrays of a mesh in mm.")
+    if isinstance(part, TriangleMesh):
+        return check_solid(part, "mesh")
+    if isinstance(part, tuple) and len(part) == 2:
+        vertices, triangles = part
+    elif hasattr(part, "vertices") and hasattr(part, "faces"):
+        vertices, triangles = part.vertices, part.faces
+    else:
+        raise VolfrepError(
+            f"A part is a file's path, a mesh with vertices and faces, or a pair of arrays, not "
+            f"{type(part).__name__}."
+        )
+    try:
+        points, rows = np.asarray(vertices, np.float64), np.asarray(triangles)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise VolfrepError(
+            f"A mesh has (n, 3) vertices in mm and (m, 3) triangles, not {brief(part)}."
+        ) from error
+    shapes_fit = points.ndim == 2 and rows.ndim == 2 and points.shape[1] == rows.shape[1] == 3
+    if not shapes_fit or not len(rows) or rows.dtype.kind not in "iu":
+        raise VolfrepError(
+            "A mesh has (n, 3) vertices and (m, 3) triangles of whole numbers, not arrays of the "
+            f"shapes {points.shape} and {rows.shape}."
+        )
+    if rows.min() < 0 or rows.max() >= len(points):
+        raise VolfrepError(f"A triangle names a vertex that is not among the {len(points)}.")
+    if not np.isfinite(points).all():
+        raise VolfrepError("A vertex of the mesh has a coordinate that is not a finite number.")
+    return check_solid(TriangleMesh(points, rows.astype(np.int32)), "mesh")

@@ -17,14 +17,15 @@ from ..grid.strut_graph import Wireframe
 from ..reports.printability import inclinations, unit_direction
 from ..util.errors import VolfrepError
 from ..util.linalg import along, times
+from ..util.showing import Shown
 from ..util.types import Floats
 
 #: Radii that differ by less are the same, relative.
 _SAME = 1e-6
 
 
-@dataclass(frozen=True, eq=False)
-class Printed:
+@dataclass(frozen=True, eq=False, repr=False)
+class Printed(Shown):
     """What comes out.
 
     Attributes:
@@ -40,6 +41,12 @@ class Printed:
     diameters: tuple[float, float]
     drawn: tuple[float, float]
     swelling: float
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Names and values, for people."""
+        both = (("printed", self.diameters), ("drawn", self.drawn))
+        told = [(name, f"{least:.3f} to {most:.3f} mm thick") for name, (least, most) in both]
+        return [("table", self.table.title), *told, ("swelling", f"{self.swelling:.4g}")]
 
     def row(self, lattice_mm3: float, volume_mm3: float, density: float) -> tuple[str, str]:
         """A name and a value for the user.

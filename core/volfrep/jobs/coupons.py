@@ -21,6 +21,7 @@ from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
 from ..util.numbers import number, whole
 from ..util.progress import Monitor, ProgressCallback
+from ..util.showing import Shown
 from .kinds import lattice_kind
 
 if TYPE_CHECKING:
@@ -47,8 +48,8 @@ _PLACES = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True, eq=False)
-class Coupon:
+@dataclass(frozen=True, eq=False, repr=False)
+class Coupon(Shown):
     """A specimen.
 
     Attributes:
@@ -64,6 +65,11 @@ class Coupon:
     mesh: TriangleMesh
     sizes: dict[str, float]
     struts: tuple[tuple[float, float], ...] = ()
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Names and values, for people."""
+        sizes = [(name, f"{value:g}") for name, value in self.sizes.items()]
+        return [("coupon", f"{self.number}, {self.kind}"), *sizes]
 
     def table(self) -> str:
         """Of a ladder the file to fill in: `as_printed.find_printed_table` reads it."""

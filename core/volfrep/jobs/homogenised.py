@@ -40,6 +40,7 @@ from ..util.errors import VolfrepError
 from ..util.files import write_json
 from ..util.numbers import number
 from ..util.progress import Monitor, ProgressCallback
+from ..util.showing import Shown
 from ..util.types import Floats, Ints
 from ..voxels.loaded import Loaded, surface_body
 from ..voxels.multigrid import elements_at
@@ -63,8 +64,8 @@ FEW_CELLS = 6
 STRETCHED, BENT = "9 %", "21 %"
 
 
-@dataclass(frozen=True, eq=False)
-class HomogenisedPart:
+@dataclass(frozen=True, eq=False, repr=False)
+class HomogenisedPart(Shown):
     """A filled part that was solved as a homogenised solid.
 
     Attributes:

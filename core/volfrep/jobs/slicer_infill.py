@@ -23,6 +23,7 @@ from ..spatial.proximity import index_surface
 from ..spatial.rays import inside_grid
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
+from ..util.showing import Shown
 from ..util.types import Bools, Floats
 
 if TYPE_CHECKING:
@@ -72,8 +73,8 @@ class Band:
     mesh: TriangleMesh | None
 
 
-@dataclass(frozen=True, eq=False)
-class SlicerInfill:
+@dataclass(frozen=True, eq=False, repr=False)
+class SlicerInfill(Shown):
     """A part with its bands, as a slicer's project holds it.
 
     Attributes:

@@ -23,6 +23,7 @@ from ..util.files import write_json
 from ..util.numbers import duration, number
 from ..util.peaks import PEAKS
 from ..util.progress import Monitor, ProgressCallback
+from ..util.showing import Shown
 from ..voxels.shares import grid_of
 from ..voxels.solution import (
     VoxelModel,
@@ -80,8 +81,8 @@ class Expected:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class Solved:
+@dataclass(frozen=True, eq=False, repr=False)
+class Solved(Shown):
     """A solid that was solved.
 
     Attributes:

@@ -17,6 +17,7 @@ from ..design.spec_parts import Grid, Struts
 from ..util.arguments import three_numbers
 from ..util.errors import VolfrepError
 from ..util.frames import make_frame
+from ..util.showing import Shown
 from ..util.types import Floats
 from .conductance import conductance
 from .density import radius_of_density, relative_density
@@ -42,8 +43,8 @@ MOST_STRUTS = 500
 _NOTHING = "0: it carries nothing that way"
 
 
-@dataclass(frozen=True, eq=False)
-class CellProperties:
+@dataclass(frozen=True, eq=False, repr=False)
+class CellProperties(Shown):
     """The properties of the endless lattice of a cell, each with its error.
 
     Moduli and stresses are in units of the solid's Young's modulus and yield stress, or in MPa

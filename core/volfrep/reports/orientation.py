@@ -23,6 +23,7 @@ from ..util.errors import VolfrepError
 from ..util.linalg import rotation
 from ..util.numbers import number
 from ..util.progress import Monitor, ProgressCallback
+from ..util.showing import Shown
 from ..util.types import Bools, Floats, Ints
 from .printability import ON_PLATE
 from .processes import find_process
@@ -76,8 +77,8 @@ class Orientation:
     cost: float
 
 
-@dataclass(frozen=True, eq=False)
-class Orientations:
+@dataclass(frozen=True, eq=False, repr=False)
+class Orientations(Shown):
     """The best directions for a part.
 
     Attributes:

@@ -8,6 +8,7 @@ version of the engine. Where the solid, a cell or a field was read does not matt
 from __future__ import annotations
 
 import dataclasses
+import os
 import shlex
 from collections import Counter
 from collections.abc import Mapping
@@ -22,7 +23,7 @@ from ..design.parameters.specification import specification
 from ..design.parameters.table import BY_NAME, PARAMETERS
 from ..design.parameters.values import LENGTHS, SCALES, to_plain
 from ..design.spec import LatticeSpec
-from ..io.solid import Solid, read_solid
+from ..io.solid import Solid, read_solid, solid_of
 from ..mechanics.materials import SolidMaterial
 from ..util.content import content_of, digest_of
 from ..util.errors import VolfrepError
@@ -163,9 +164,9 @@ def read_part(part: object, unit: str | None) -> tuple[str, Solid]:
     Raises:
         VolfrepError: it is no closed solid.
     """
-    if isinstance(part, Solid):
-        return "", part
-    return str(part), read_solid(str(part), unit)
+    if isinstance(part, (str, os.PathLike)):
+        return os.fspath(part), read_solid(part, unit)
+    return "", solid_of(part)
 
 
 def command_of(design: Design, study: Study, source: str, output: str) -> str:

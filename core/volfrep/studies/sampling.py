@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from numbers import Real
 from typing import Any
@@ -76,7 +76,7 @@ class Range:
         return tuple(dict.fromkeys(self.at(share) for share in shares))
 
 
-Variations = Mapping[str, "tuple[Any, ...] | Range"]
+Variations = Mapping[str, "Sequence[Any] | Range"]
 
 
 def grid(vary: Variations) -> list[dict[str, Any]]:

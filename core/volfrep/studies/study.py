@@ -4,17 +4,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+from numpy.typing import ArrayLike
 
 from ..design.parameters.spec_file import KEYS, nearest_key, parse_spec, read_values, with_paths
 from ..design.parameters.specification import merge_values
 from ..design.parameters.table import BY_NAME
 from ..design.parameters.values import SCALES, from_plain
-from ..io.solid import Solid
+from ..io.solid import MeshLike
 from ..mechanics.materials import SolidMaterial, find_material
+from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.processes import Process, find_process
 from ..util.arguments import check_kind, check_path
 from ..util.errors import VolfrepError
@@ -46,7 +49,7 @@ class Front:
     """
 
     objectives: Mapping[str, str]
-    do: tuple[str, ...] = ()
+    do: Sequence[str] = ()
     designs: int | None = None
 
     def __post_init__(self) -> None:
@@ -72,7 +75,7 @@ class Study:
     """Many designs of one part or of several.
 
     Attributes:
-        parts: files, or solids.
+        parts: files, or meshes and arrays as `fill` takes them.
         vary: by the name of a parameter: its values, or the `Range` that they lie in.
         fixed: values of other parameters by name, as `design.parameters.specification` takes them.
         sampling: ``grid`` (every combination), ``list`` (the `designs`) or ``latin-hypercube``
@@ -99,14 +102,14 @@ class Study:
     (('cell',), ('forecast', 'properties'))
     """
 
-    parts: tuple[str | os.PathLike[str] | Solid, ...]
-    vary: Mapping[str, tuple[Any, ...] | Range] = field(default_factory=dict)
+    parts: Sequence[str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike]]
+    vary: Mapping[str, Sequence[Any] | Range] = field(default_factory=dict)
     fixed: Mapping[str, Any] = field(default_factory=dict)
     sampling: str = "grid"
-    designs: tuple[Mapping[str, Any], ...] = ()
+    designs: Sequence[Mapping[str, Any]] = ()
     samples: int = 0
     seed: int = 0
-    do: tuple[str, ...] = ("forecast", "properties")
+    do: Sequence[str] = ("forecast", "properties")
     front: Front | None = None
     material: str | SolidMaterial | None = None
     process: str | None = None

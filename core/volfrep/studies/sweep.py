@@ -21,7 +21,9 @@ from ..util.arguments import check_kind, check_path
 from ..util.errors import VolfrepError
 from ..util.files import check_writable, keeping_inputs, refuse_input
 from ..util.progress import ProgressCallback
+from ..util.progress_bar import shown
 from ..util.reading import read_text
+from ..util.showing import Shown
 from ..util.types import Floats
 from ..util.version import VERSION
 from . import pareto
@@ -34,7 +36,7 @@ from .running.batches import limits_of_a_run
 from .running.executors import Words, told_state
 from .running.scheduling import How, Job, weight
 from .study import Front, Study, read_study
-from .table import Table, table_of, write_csv, write_parquet
+from .table import DONE, FAILED, OPEN, Table, table_of, write_csv, write_parquet
 
 if TYPE_CHECKING:
     import pandas
@@ -43,8 +45,8 @@ if TYPE_CHECKING:
 TOLD = ("runs.csv", "runs.parquet", "index.html")
 
 
-@dataclass(frozen=True, eq=False)
-class Swept:
+@dataclass(frozen=True, eq=False, repr=False)
+class Swept(Shown):
     """What a study came to.
 
     Attributes:
@@ -66,6 +68,12 @@ class Swept:
     runs: int
     page: Path
     damaged: tuple[str, ...] = ()
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Names and values, for people."""
+        states = ((state, self.count(state)) for state in (DONE, FAILED, OPEN))
+        told = [(state, str(count)) for state, count in states if count]
+        return [*told, ("on the front", str(len(self.front))), ("page", str(self.page))]
 
     def count(self, state: str) -> int:
         """Designs in a state: ``done``, ``failed`` or ``open``."""
@@ -91,7 +99,7 @@ def sweep(
     limit_hours: float | None = None,
     limit_memory: float | None = None,
     retry_failed: bool = False,
-    progress: ProgressCallback | None = None,
+    progress: ProgressCallback | bool | None = None,
     interpreter: Program | None = None,
     words: Words = told_state,
 ) -> Swept:
@@ -108,8 +116,8 @@ def sweep(
         limit_hours: for each run, which is ended and told.
         limit_memory: for each run, GB.
         retry_failed: try again what failed.
-        progress: called with the fraction done, and runs and time left in words; returning False
-            cancels.
+        progress: True for a bar in a terminal or a notebook; or a function that is called with the
+            fraction done, and runs and time left in words, and cancels by returning False.
         interpreter: of the processes, where this program is no Python that can start itself.
         words: say how far the runs are: of runs done, all of them, and seconds left.
 
@@ -128,9 +136,9 @@ def sweep(
     check_kind("study", study, (Study, str, os.PathLike), "a Study, or the path of its file")
     limits = limits_of_a_run(limit_hours, limit_memory)
     how = How(workers, executor, scheduler, shard, limits, retry_failed, interpreter, words)
-    with keeping_inputs():
+    with keeping_inputs(), shown(progress) as told:
         study = study if isinstance(study, Study) else read_study(study)
-        return _swept(study, folder, how, progress)
+        return _swept(study, folder, how, told)
 
 
 def _swept(
@@ -145,7 +153,7 @@ def _swept(
     job = Job(at, asked, how, progress)
     mine = found.designs[how.shard[0] - 1 :: how.shard[1]]
     damaged = tuple(_damaged(record_path(at, design.key)) for design in mine)
-    runs = job.do(mine, study.do)
+    runs = job.do(mine, tuple(study.do))
     front: Mapping[str, int] = {}
     if study.front is not None:
         front = _front(at, found.designs, study, asked)
@@ -163,7 +171,7 @@ def evaluate(
     workers: int | None = None,
     executor: Executor | None = None,
     scheduler: str | None = None,
-    progress: ProgressCallback | None = None,
+    progress: ProgressCallback | bool | None = None,
 ) -> list[dict[str, Any]]:
     """The figures of designs that an optimiser asks for: what it is told then.
 
@@ -210,8 +218,10 @@ def evaluate(
         except VolfrepError as error:
             made.append(str(error))
     sound = {one.key: one for one in made if isinstance(one, Design)}
-    Job(at, asked, How(workers, executor, scheduler), progress).do(tuple(sound.values()), study.do)
-    return [_figures(at, one, study.do) for one in made]
+    with shown(progress) as told:
+        job = Job(at, asked, How(workers, executor, scheduler), told)
+        job.do(tuple(sound.values()), tuple(study.do))
+    return [_figures(at, one, tuple(study.do)) for one in made]
 
 
 def _figures(folder: Path, made: Design | str, actions: tuple[str, ...]) -> dict[str, Any]:
@@ -285,9 +295,9 @@ def _front(
     """The front of each design that is chosen, by its key; none while some are still open."""
     assert study.front is not None
     records = [read_record(folder, design.key) for design in designs]
-    if any(r is None or r.missing(study.do, asked, retry=False) for r in records):
+    if any(r is None or r.missing(tuple(study.do), asked, retry=False) for r in records):
         return {}
-    table = table_of(designs, records, study.do, {}, study.do)
+    table = table_of(designs, records, tuple(study.do), {}, tuple(study.do))
     figures = losses(table, study.front)
     ranks = pareto.ranks(figures)
     rows = pareto.choose(figures, study.front.designs)
@@ -317,7 +327,7 @@ def losses(table: Table, front: Front) -> Floats:
 def _told(study: Study, folder: Path, found: Designs, front: Mapping[str, int], runs: int) -> Swept:
     """Write table and page of what is known now."""
     records = [read_record(folder, design.key) for design in found.designs]
-    table = table_of(found.designs, records, study.all_actions, front, study.do)
+    table = table_of(found.designs, records, study.all_actions, front, tuple(study.do))
     write_csv(table, folder / TOLD[0])
     write_parquet(table, folder / TOLD[1])
     page = folder / TOLD[2]

@@ -32,7 +32,7 @@ SECONDS = "seconds."
 DONE, FAILED, OPEN = "done", "failed", "open"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Table:
     """Designs and what is known of them.
 
@@ -44,6 +44,9 @@ class Table:
 
     columns: tuple[str, ...]
     rows: tuple[tuple[Any, ...], ...]
+
+    def __repr__(self) -> str:
+        return f"<Table of {len(self.rows)} designs: {', '.join(self.columns)}>"
 
     def column(self, name: str) -> list[Any]:
         """The values of a column.

@@ -305,6 +305,6 @@ def uncut_lattice(
 
 def _nothing_holds() -> VolfrepError:
     return VolfrepError(
-        "No strut reaches the skin, so that nothing would hold the lattice: reduce the cell size "
-        "or choose the activation 'touching'."
+        "No strut reaches the skin, so that nothing would hold the lattice: reduce the cell size, "
+        "choose the activation 'touching', or let the struts of a graph go on to the skin."
     )

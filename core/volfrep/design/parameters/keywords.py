@@ -18,6 +18,7 @@ from ...util.errors import VolfrepError, brief
 from ...util.numbers import number
 from ...util.types import Floats
 from ..cells import make_cell
+from ..drawn_cell import DrawnCell
 from ..grading import Field
 from ..graphs import make_network
 from ..spec import LatticeSpec
@@ -33,6 +34,8 @@ BAD_KINDS = (TypeError, ValueError, AttributeError, LookupError, OverflowError)
 FIELDS = {field.name for field in dataclasses.fields(LatticeSpec)}
 #: Keys of files, which are options of the command too.
 KEYS = {row.name for row in PARAMETERS if row.in_command}
+#: Fields that hold several things: None is none of them.
+_SEVERAL = ("open_faces", "face_skins", "keep_solid")
 #: Keys whose word stands for what a field of the same name holds.
 WORDS = ("cell_map", "network", "radius_grading", "size_grading")
 
@@ -102,8 +105,8 @@ def own_data(
 ) -> dict[str, Any]:
     """The keywords with what plain values, arrays, graphs, functions and dicts stand for.
 
-    `cell` may be a dict with the ``nodes`` and ``struts`` of a cell's file, `network` a pair of
-    nodes and struts, a mesh or a `networkx.Graph`; fields are those of `field_keywords`.
+    `cell` may be what `as_cell` takes, `network` a pair of nodes and struts, a mesh or a
+    `networkx.Graph`; fields are those of `field_keywords`.
 
     Args:
         given: by the names of `KEYS` and `FIELDS`.
@@ -115,19 +118,12 @@ def own_data(
         VolfrepError: they make no sense.
     """
     result = {name: _value(name, value) for name, value in given.items()}
-    cell, network = result.get("cell"), result.get("network")
-    if isinstance(cell, Mapping):
-        missing = [name for name in ("nodes", "struts") if name not in cell]
-        if missing:
-            raise VolfrepError(
-                f"A cell that is a dict has nodes and struts, as a cell's file: {missing[0]} are "
-                "missing."
-            )
-        edges, widths = cell.get("edges", (1.0, 1.0, 1.0)), cell.get("widths", ())
-        result["cell"] = make_cell(
-            str(cell.get("name", "own")), cell["nodes"], cell["struts"], "cell",
-            edges=edges, widths=widths,
-        )  # fmt: skip
+    network = result.get("network")
+    if "cell" in result:
+        result["cell"] = as_cell(result["cell"])
+    for name in _SEVERAL:
+        if name in result and result[name] is None:
+            result[name] = ()
     if network is not None and not isinstance(network, str):
         result["network"] = as_graph(network)
     size = result.get("cell_size")
@@ -137,6 +133,33 @@ def own_data(
         bounds = box(number("cell size", size, "mm", positive=True))
     result = with_cell_size(result, bounds)
     return with_fields(result, bounds, result.get("cell_size") or size)
+
+
+def as_cell(cell: Any) -> Any:
+    """A cell of a dict as a cell's file has it, of a pair of arrays, or of lines.
+
+    Args:
+        cell: with ``nodes`` and ``struts``; (n, 3) nodes in a cube from 0 to 1 and (m, 2) struts;
+            what `volfrep.cell_from_lines` gives; what is none of these is left as it is.
+
+    Raises:
+        VolfrepError: it makes no cell.
+    """
+    if isinstance(cell, DrawnCell):
+        return cell.cell
+    if isinstance(cell, (tuple, list)) and len(cell) == 2:
+        cell = dict(zip(("nodes", "struts"), cell, strict=True))
+    if not isinstance(cell, Mapping):
+        return cell
+    missing = [name for name in ("nodes", "struts") if name not in cell]
+    if missing:
+        raise VolfrepError(
+            f"A cell that is a dict has nodes and struts, as a cell's file: {missing[0]} are "
+            "missing."
+        )
+    edges, widths = cell.get("edges", (1.0, 1.0, 1.0)), cell.get("widths", ())
+    name = str(cell.get("name", "own"))
+    return make_cell(name, cell["nodes"], cell["struts"], "cell", edges=edges, widths=widths)
 
 
 def _value(name: str, value: Any) -> Any:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
+from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -70,6 +71,8 @@ def from_plain(parameter: Parameter, value: Any) -> Any:
             raise VolfrepError(f"{value!r} is no list of lists such as {_example(parameter)}.")
         return tuple(item if isinstance(item, str) else _numbers(parameter, item) for item in value)
     if kind in LENGTHS:
+        if isinstance(value, str) and "," in value:  # as an option has it
+            value = value.split(",")
         if not isinstance(value, list):
             raise VolfrepError(f"{value!r} is no list such as {_example(parameter)}.")
         return _numbers(parameter, value)
@@ -163,7 +166,9 @@ def _word(parameter: Parameter, text: str) -> str:
         return text
     word = ALIASES.get(text.lower(), text.lower())
     if word not in parameter.choices:
-        raise VolfrepError(f"There is no '{text}': choose {', '.join(parameter.choices)}.")
+        near = get_close_matches(word, parameter.choices, 1)
+        hint = f"did you mean '{near[0]}'? There are" if near else "choose"
+        raise VolfrepError(f"There is no '{text}': {hint} {', '.join(parameter.choices)}.")
     return word
 
 

@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
 from ...design.cells import UnitCell, any_cell
+from ...design.drawn_cell import DrawnCell
+from ...design.parameters.keywords import as_cell
 from ...design.spec_parts import Grid
 from ...design.tpms import PeriodicSurface
 from ...mechanics.materials import SolidMaterial, find_material
@@ -17,7 +20,7 @@ from ..kinds.kind import EndlessWish
 
 
 def lattice_properties(
-    cell: str | UnitCell | PeriodicSurface,
+    cell: str | UnitCell | DrawnCell | PeriodicSurface | Mapping[str, Any],
     cell_size: float,
     strut_radius: float | None = None,
     *,
@@ -36,8 +39,8 @@ def lattice_properties(
     """What the endless lattice of a cell does.
 
     Args:
-        cell: a library cell's name, the path of a cell's file, or the cell; for walls the name of
-            a surface, or the surface.
+        cell: a library cell's name, the path of a cell's file, or the cell, as of `fill`; for
+            walls the name of a surface, or the surface.
         cell_size: L, mm.
         strut_radius: r, mm; or give `relative_density`.
         relative_density: in place of radius, thickness or offset, which is then found.
@@ -60,8 +63,9 @@ def lattice_properties(
     (0.23, (6, 6))
     """
     check_kind("cell_values", cell_values, str, "a text such as 't = 0.3'")
-    if isinstance(cell, str):
-        cell = any_cell(cell, cell_values, wall_formula)
+    given = as_cell(cell)
+    if isinstance(given, str):
+        given = any_cell(given, cell_values, wall_formula)
     elif cell_values:
         raise VolfrepError("Values are for a cell that is given by its name or file.")
     kinds = (SolidMaterial, type(None))
@@ -71,4 +75,4 @@ def lattice_properties(
         strut_radius, relative_density, fillet, solid, along, cell_values, wall_kind,
         wall_thickness, wall_offset, wall_formula, exact, told,
     )  # fmt: skip
-    return kind_of_cell(cell).properties(cell, Grid(cell_size).size, wish)
+    return kind_of_cell(given).properties(given, Grid(cell_size).size, wish)

@@ -26,6 +26,7 @@ from ...util.cache import StageCache
 from ...util.errors import Cancelled, VolfrepError
 from ...util.files import replacing
 from ...util.progress import Monitor, ProgressCallback
+from ...util.showing import Shown
 from ...util.types import Floats
 from ..infill import Infill
 from ..kinds import lattice_kind
@@ -53,8 +54,8 @@ CORRECTIONS = 3
 MARGIN, SKINS, SKIN_HOLDS = 0.98, 2, 1.01
 
 
-@dataclass(frozen=True, eq=False)
-class SizedPart:
+@dataclass(frozen=True, eq=False, repr=False)
+class SizedPart(Shown):
     """A lattice whose radii follow what the part carries.
 
     Attributes:
@@ -77,6 +78,12 @@ class SizedPart:
     before: Analysis
     even: tuple[Analysis, bool] | None
     report: dict[str, Any] = field(repr=False)
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Names and values, for people."""
+        from ...reports.sizing_report import sizing_rows
+
+        return sizing_rows(self.report)
 
     @property
     def states(self) -> tuple[StrutState, ...]:

@@ -126,6 +126,71 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "Front": lambda value: volfrep.Front(value),
     "sweep(study)": lambda value: volfrep.sweep(value, "runs"),
     "sweep(folder)": lambda value: volfrep.sweep(_study(), value),
+    "find(modulus)": lambda value: volfrep.find(modulus="x" if value is None else value),
+    "find(relative_density)": lambda value: volfrep.find(
+        relative_density="x" if value is None else value
+    ),
+    "find(direction)": lambda value: volfrep.find(modulus=0.01, direction=value),
+    "find(material)": lambda value: volfrep.find(
+        modulus=0.01, material="x" if value is None else value
+    ),
+    "find(cell_size)": lambda value: volfrep.find(modulus=0.01, cell_size=value),
+    "homogenise(part)": lambda value: volfrep.homogenise(value, HELD, **CELL),
+    "homogenise(loads)": lambda value: volfrep.homogenise(TETRAHEDRON, value, **CELL),
+    "homogenise(element)": lambda value: volfrep.homogenise(
+        TETRAHEDRON, HELD, element="x" if value is None else value, **CELL
+    ),
+    "coupons(kinds)": lambda value: volfrep.coupons(None, value, **CELL),
+    "coupons(cells)": lambda value: volfrep.coupons(None, ["cube"], cells=value, **CELL),
+    "coupons(first)": lambda value: volfrep.coupons(None, ["ladder"], first=value, **CELL),
+    "orient(part)": lambda value: volfrep.orient(value),
+    "orient(unit)": lambda value: volfrep.orient(TETRAHEDRON, unit=value or "x")
+    if not isinstance(value, np.ndarray) else volfrep.as_solid(value),
+    "slicer_infill(part)": lambda value: volfrep.slicer_infill(value),
+    "slicer_infill(wanted)": lambda value: volfrep.slicer_infill(
+        TETRAHEDRON, 5 if value is None else value
+    ),
+    "slicer_infill(material)": lambda value: volfrep.slicer_infill(
+        TETRAHEDRON, material=5 if value is None else value
+    ),
+    **{
+        f"slicer_infill({name})": lambda value, name=name: volfrep.slicer_infill(
+            TETRAHEDRON, **{name: "?" if value is None else value}
+        )
+        for name in ("start", "end", "bands", "grading", "field", "pattern", "reach", "direction",
+                     "curve", "formula", "walls", "line_width", "layer")
+    },
+    "fill(max_triangles)": lambda value: volfrep.fill(TETRAHEDRON, max_triangles=value, **CELL),
+    "fill(max_size)": lambda value: volfrep.fill(TETRAHEDRON, max_size=value, **CELL),
+    "fill(service)": lambda value: volfrep.fill(
+        TETRAHEDRON, service="x" if value is None else value, **CELL
+    ),
+    "fill(compensate)": lambda value: volfrep.fill(
+        TETRAHEDRON, compensate="x" if value is None else value, **CELL
+    ),
+    "fill(unit)": lambda value: volfrep.fill("none.stl", unit=value, **CELL),
+    "properties(relative_density)": lambda value: volfrep.properties(
+        "BCC", 10, relative_density=value
+    ),
+    "properties(fillet)": lambda value: volfrep.properties(
+        "BCC", 10, 1, fillet="x" if value == 0 else value
+    ) if not isinstance(value, (int, np.ndarray)) else volfrep.as_solid(value),
+    "properties(wall_kind)": lambda value: volfrep.properties(
+        "Gyroid", 10, wall_kind=value or "x", wall_thickness=99
+    ) if not isinstance(value, np.ndarray) else volfrep.as_solid(value),
+    "properties(wall_thickness)": lambda value: volfrep.properties(
+        "Gyroid", 10, wall_thickness="x" if value is None or value is True else value
+    ) if not isinstance(value, np.ndarray) else volfrep.as_solid(value),
+    "properties(wall_formula)": lambda value: volfrep.properties(
+        "Formula", 10, wall_formula=value, wall_thickness=99
+    ),
+    "size(part)": lambda value: volfrep.size(value, HELD, **CELL),
+    "size(prove)": lambda value: volfrep.size(TETRAHEDRON, HELD, prove=value or 5, **CELL)
+    if not isinstance(value, np.ndarray) else volfrep.as_solid(value),
+    "size(voxel)": lambda value: volfrep.size("none.stl", HELD, voxel=value, **CELL),
+    "LatticeSpec(cell)": lambda value: volfrep.LatticeSpec(value),
+    "LatticeSpec(cell_size)": lambda value: volfrep.LatticeSpec("BCC", value),
+    "TriangleMesh": lambda value: volfrep.fill(value, **CELL),
     "evaluate(designs)": lambda value: volfrep.evaluate(_study(), value, "runs"),
 }  # fmt: skip
 
@@ -149,8 +214,10 @@ def test_a_call_takes_its_kind_or_says_what_it_takes(
         lambda part, value: part.check(value),
         lambda part, value: part.check("SLS", [value]),
         lambda part, value: part.plot(value or 5),
+        lambda part, value: part.as_printed(value),
+        lambda part, value: part.as_printed("SLS-PA12", value),
     ],
-    ids=["save", "form", "material", "layers", "check", "direction", "plot"],
+    ids=["save", "form", "material", "layers", "check", "direction", "plot", "printed", "up"],
 )
 @pytest.mark.filterwarnings("ignore")
 def test_a_part_takes_its_kind_or_says_what_it_takes(

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..util.arguments import check_kind
 from ..util.errors import VolfrepError, brief
 from ..util.numbers import number, whole
 from ..util.types import Floats
@@ -79,6 +80,8 @@ class BandedInfill:
     )
 
     def __post_init__(self) -> None:
+        for name in ("grading", "pattern", "curve", "formula", "profile"):
+            check_kind(name, getattr(self, name), str, "a text")
         for name, words in (("grading", GRADINGS), ("pattern", PATTERNS)):
             if getattr(self, name) not in words:
                 raise VolfrepError(

@@ -17,6 +17,7 @@ import numpy as np
 from ..design.spec import LatticeSpec
 from ..mesh.booleans import as_manifold, as_mesh
 from ..mesh.triangle_mesh import TriangleMesh
+from ..util.arguments import check_kind
 from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
 from ..util.numbers import number, whole
@@ -105,6 +106,9 @@ def make_coupons(
         Cancelled: the callback said so.
     """
     kinds = (kinds,) if isinstance(kinds, str) else kinds
+    check_kind("kinds", kinds, (tuple, list), f"some of {', '.join(KINDS)}")
+    for kind in kinds:
+        check_kind("kinds", kind, str, f"some of {', '.join(KINDS)}")
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown or not kinds:
         what = f"There is no coupon '{unknown[0]}'" if unknown else "No coupon is named"

@@ -64,8 +64,9 @@ def field_of(name: str, value: Any, bounds: Floats | None, cell_size: float) -> 
         return value
     if isinstance(value, (tuple, list)):
         try:
+            value = (value[0], value[1])
             return PointField(np.asarray(value[0], float), np.asarray(value[1], float))
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, IndexError) as error:
             if isinstance(error, VolfrepError):
                 raise VolfrepError(f"{name}: {error}") from error
             raise VolfrepError(

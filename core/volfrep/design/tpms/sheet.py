@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from ...util.arguments import check_kind
 from ...util.errors import VolfrepError
 from ...util.numbers import number
 
@@ -42,6 +43,7 @@ class TpmsSheet:
     offset: float = 0.0
 
     def __post_init__(self) -> None:
+        check_kind("wall_kind", self.kind, str, f"one of {', '.join(KINDS)}")
         if self.kind not in KINDS:
             raise VolfrepError(
                 f"There is no kind of wall '{self.kind}': choose one of {', '.join(KINDS)}."

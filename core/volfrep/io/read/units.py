@@ -8,6 +8,7 @@ import re
 import numpy as np
 from numpy.typing import NDArray
 
+from ...util.arguments import check_kind
 from ...util.errors import VolfrepError
 
 #: Millimetres in each unit that a file or a user may name.
@@ -44,6 +45,7 @@ def find_unit(name: str) -> str:
     Raises:
         VolfrepError: there is no such unit.
     """
+    check_kind("unit", name, str, f"one of {', '.join(UNITS)}")
     unit = unit_named(name)
     if unit is None:
         raise VolfrepError(f"There is no unit '{name}': choose one of {', '.join(UNITS)}.")

@@ -63,6 +63,7 @@ def lattice_properties(
     (0.23, (6, 6))
     """
     check_kind("cell_values", cell_values, str, "a text such as 't = 0.3'")
+    check_kind("wall_formula", wall_formula, str, "a formula such as 'cos(x) + cos(y) + cos(z)'")
     given = as_cell(cell)
     if isinstance(given, str):
         given = any_cell(given, cell_values, wall_formula)

@@ -12,6 +12,7 @@ from ...mechanics.materials import SolidMaterial
 from ...mechanics.summary import POISSON, CellProperties, figures_of
 from ...mechanics.voxels import Voxels
 from ...tpms.solid import TpmsSolid
+from ...util.errors import VolfrepError
 from .symmetry import is_cubic, is_mirror_symmetric
 from .voxels import cut_into_voxels, of_density, tpms_density
 
@@ -19,7 +20,7 @@ from .voxels import cut_into_voxels, of_density, tpms_density
 _OF_SIDES = 96
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class TpmsProperties(CellProperties):
     """What an endless lattice of walls does.
 
@@ -71,6 +72,11 @@ def tpms_properties(
         thick = {"thickness": 2.0 * level} if wall.is_sheet else {"offset": level}
         wall = TpmsSheet(wall.kind, **thick)
     density, error = tpms_density(solid, octant=octant)
+    if density >= 1.0:
+        raise VolfrepError(
+            f"The wall of {surface.name} fills its cell, so that it does what the solid does: take "
+            "a thinner one, or larger cells."
+        )
     found = homogenise_tpms(solid, density, poisson, octant=octant, along=along, name=surface.name)
     told = figures_of(found, material)
     told.errors["relative_density"] = error

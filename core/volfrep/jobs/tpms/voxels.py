@@ -52,7 +52,7 @@ def cut_into_voxels(
     points = (index[cut][:, None] + inner).reshape(-1, 3) * step
     # The feet of parts are beside those of their voxels' middles.
     feet = solid.surface.feet(points, np.repeat(feet.points[is_cut], len(inner), axis=0), steps=1)
-    distance = (solid.outward(feet) * feet.distances - solid.level).reshape(len(cut), -1)
+    distance = (solid.outward(feet) * feet.distances - solid.level).reshape(len(cut), len(inner))
     return voxels_by_distance(
         index, full, cut, distance * (along * PARTS), along, octant=octant, density=density
     )

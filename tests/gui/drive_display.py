@@ -229,6 +229,43 @@ def section(obj):
     check("it closes with its object", dock() is None)
 
 
+def solids_beside():
+    """How many solids are shown beside their lattices."""
+    scene = Gui.activeDocument().activeView().getSceneGraph()
+    names = [scene.getChild(k).getName().getString() for k in range(scene.getNumChildren())]
+    return names.count("VolfrepSolidBeside")
+
+
+def beside(obj):
+    """A click shows the solid beside its lattice, another takes it away; nothing else changes."""
+    doc = obj.Document
+    steps = doc.UndoCount
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(obj)
+    settle()
+    picture("beside_0")
+    click(toolbar_button("Solid Beside"))
+    check("the solid is shown", solids_beside() == 1)
+    picture("beside_1")
+    left, right = (drawn_halves("beside_1")[k] for k in (0, 1))
+    check("both are in sight", min(left, right) > 0.1, (left, right))
+    check("the document is as before", doc.UndoCount == steps and obj.Visibility)
+    click(toolbar_button("Solid Beside"))
+    check("once more takes it away", solids_beside() == 0)
+    click(toolbar_button("Solid Beside"))
+    obj.Base.Height = 22
+    settle()
+    check("a solid that changes is taken away", solids_beside() == 0)
+
+
+def drawn_halves(name):
+    """Shares of the view's left and right half, in a picture, that are not background."""
+    image = seen(name, view_3d()).astype(int)
+    drawn = np.abs(image - image[:, :1]).sum(axis=2) > 24
+    middle = drawn.shape[1] // 2
+    return drawn[:, :middle].mean(), drawn[:, middle:].mean()
+
+
 def graded():
     """An infill whose radius grows along X, moved from where its solid was made."""
     (obj,) = made()
@@ -418,6 +455,7 @@ run_checks(
         many_struts: made,
         saved_modes: made,
         section: made,
+        beside: made,
         colours: graded,
         frames: None,
     },

@@ -54,6 +54,14 @@ def show_section(obj: App.DocumentObject) -> None:
     open_section(obj)
 
 
+def show_beside(infill: App.DocumentObject) -> None:
+    """Show the solid beside its lattice, or take it away."""
+    from freecad_volfrep.gui.view.solid_beside import toggle_beside
+
+    with errors_shown():
+        toggle_beside(infill)
+
+
 def colour_infill(obj: App.DocumentObject) -> None:
     """Choose what an infill is coloured by."""
     from freecad_volfrep.gui.colours.colour_dock import open_colours

@@ -53,6 +53,7 @@ from .result_commands import (
     colour_infill,
     open_help,
     report_mesh,
+    show_beside,
     show_section,
     show_statistics,
     show_strut_results,
@@ -204,6 +205,16 @@ _TABLE = (
         A_MESH,
     ),
     Command(
+        "VOLFREP_SolidBeside",
+        "solid_beside.svg",
+        "Solid Beside",
+        "Show the solid beside the selected lattice infill; once more takes it away",
+        "L, Q",
+        infill_in_view,
+        show_beside,
+        AN_INFILL_IN_VIEW,
+    ),
+    Command(
         "VOLFREP_ColourBy",
         "colour_by.svg",
         "Colour By",
@@ -334,7 +345,10 @@ PARTS: tuple[tuple[str, tuple[str, ...]], ...] = (
             "VOLFREP_Coupons",
         ),
     ),
-    (QT_TRANSLATE_NOOP("VOLFREP_LookGroup", "Look"), ("VOLFREP_SectionView", "VOLFREP_ColourBy")),
+    (
+        QT_TRANSLATE_NOOP("VOLFREP_LookGroup", "Look"),
+        ("VOLFREP_SectionView", "VOLFREP_SolidBeside", "VOLFREP_ColourBy"),
+    ),
     (
         QT_TRANSLATE_NOOP("VOLFREP_CheckGroup", "Check"),
         ("VOLFREP_PrintCheck", "VOLFREP_Orient", "VOLFREP_CheckMesh", "VOLFREP_Statistics"),

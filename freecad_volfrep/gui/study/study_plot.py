@@ -10,7 +10,7 @@ from typing import Any
 from freecad_volfrep.gui.qt import QtCore, QtGui, QtWidgets
 
 #: Room for the axes' numbers, px: left, top, right, bottom.
-MARGINS = (72, 12, 14, 34)
+MARGINS = (72, 12, 14, 38)
 #: A click within so many px of a point picks it.
 NEAR = 14
 #: Lines of the grid along each axis, about.
@@ -132,12 +132,12 @@ class StudyPlot(QtWidgets.QWidget):
         painter.setPen(ink)
         frame = QtCore.QRectF(left, top, width - left - right, height - top - bottom)
         painter.drawRect(frame)
-        bottom_line = QtCore.QRectF(left, height - 16, width - left - right, 15)
+        bottom_line = QtCore.QRectF(left, height - 20, width - left - right, 19)
         painter.drawText(bottom_line, int(QtCore.Qt.AlignHCenter), self._words[0])
         painter.save()
         painter.translate(2, top + frame.height() / 2)
         painter.rotate(-90)
-        side = QtCore.QRectF(-frame.height() / 2, 0, frame.height(), 28)
+        side = QtCore.QRectF(-frame.height() / 2, 0, frame.height(), 34)
         # What is too long for one line has its unit in the next.
         title = self._words[1]
         if painter.boundingRect(side, 0, title).width() > side.width():

@@ -1718,6 +1718,17 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_SolidBeside</name>
+    <message>
+      <source>Show the solid beside the selected lattice infill; once more takes it away</source>
+      <translation>Den Volumenkörper neben der gewählten Gitterfüllung zeigen; noch einmal nimmt ihn weg</translation>
+    </message>
+    <message>
+      <source>Solid Beside</source>
+      <translation>Volumenkörper daneben</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_Statistics</name>
     <message>
       <source>Statistics</source>

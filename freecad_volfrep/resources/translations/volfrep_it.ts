@@ -1718,6 +1718,17 @@
     </message>
   </context>
   <context>
+    <name>VOLFREP_SolidBeside</name>
+    <message>
+      <source>Show the solid beside the selected lattice infill; once more takes it away</source>
+      <translation>Mostra il solido accanto al riempimento selezionato; di nuovo lo toglie</translation>
+    </message>
+    <message>
+      <source>Solid Beside</source>
+      <translation>Solido accanto</translation>
+    </message>
+  </context>
+  <context>
     <name>VOLFREP_Statistics</name>
     <message>
       <source>Statistics</source>

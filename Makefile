@@ -13,7 +13,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 .NOTPARALLEL:
 .PHONY: help setup setup-light demo check test test-all test-slow lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
-	digests vocabulary validate release test-wheel test-release site test-escape torture fuzz bench bench-quick bench-readme catalogue clean
+	digests vocabulary validate release test-wheel test-wine test-release site test-escape torture fuzz bench bench-quick bench-readme catalogue clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -162,6 +162,9 @@ test-wheel: setup-light ## the wheel as users install it, in every Python found 
 	@$(PYTHON) -m pip wheel --quiet --disable-pip-version-check --no-deps -w build/wheel .
 	@rm -rf build/lib build/bdist.*
 	@$(PYTHON) tools/test_wheel.py build/wheel
+
+test-wine: setup-light ## a block and tests in Windows' Python under Wine (root the first time, 0.7 GB)
+	@tools/wine.sh $(TESTS)
 
 test-release: setup-light $(SITE) ## what users get, made and tried: archive, wheel in every Python found here, site
 	@tools/release.sh .

@@ -111,9 +111,20 @@ def peak_memory_mb() -> float:
             for line in file:
                 if line.startswith("VmHWM:"):
                     return int(line.split()[1]) / 1024.0
+    if sys.platform == "win32":
+        import ctypes
+
+        # PROCESS_MEMORY_COUNTERS: two fields of 32 bits, the first its length, then eight of 64
+        # bits, of which the first is the peak of the working set. -1 is this process.
+        counters = (ctypes.c_uint64 * 9)()
+        ctypes.cast(counters, ctypes.POINTER(ctypes.c_uint32))[0] = ctypes.sizeof(counters)
+        told = ctypes.windll.kernel32.K32GetProcessMemoryInfo(
+            ctypes.c_void_p(-1), ctypes.byref(counters), ctypes.sizeof(counters)
+        )
+        return float(counters[1]) / 2**20 if told else 0.0
     try:
         import resource
-    except ImportError:  # Windows
+    except ImportError:
         return 0.0
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak / 1e6 if sys.platform == "darwin" else peak / 1024.0

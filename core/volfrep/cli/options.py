@@ -164,6 +164,7 @@ class SizeOptions(LatticeOptions):
         voxel: edge of its voxels, mm; None for what suits the part.
         radii: file for the radii; None for none.
         thickness: file for the thickness of a skin that is sized; None for none.
+        limits: of the file, kept by coarser facets.
         write_spec: file for the specification with these radii; None for none.
         report: file for the figures; None for none.
         plot: file for mass and limits; None for none.
@@ -185,6 +186,7 @@ class SizeOptions(LatticeOptions):
     voxel: float | None
     radii: str | None
     thickness: str | None
+    limits: FileLimits
     write_spec: str | None
     report: str | None
     plot: str | None
@@ -270,7 +272,7 @@ def size_options(given: argparse.Namespace) -> SizeOptions:
         goal={name: getattr(given, name) for name in GOALS}, remove_thin=given.remove_thin,
         steps=given.steps, prove=not given.no_proof,
         prove_file=given.prove == "file", voxel=given.voxel, radii=given.radii,
-        thickness=given.thickness,
+        thickness=given.thickness, limits=_limits(given, form),
         write_spec=given.write_spec, report=given.report, plot=given.plot, picture=given.picture,
         colour=given.colour or "radius", case=given.case, deformed=given.deformed or 0.0,
     )  # fmt: skip

@@ -118,6 +118,9 @@ def _properties(options: argparse.Namespace) -> None:
         wall_formula=options.wall_formula,
         exact=True,
         told=_expected,
+        as_printed=options.as_printed,
+        build_direction=options.build_direction,
+        note=print,
     )
     if options.json is not None:
         write_json(options.json, found.as_dict())

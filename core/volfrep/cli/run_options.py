@@ -22,6 +22,7 @@ from .parser import numbers, shard, three_numbers, three_whole_numbers
 
 MESHED = ("fill", "block", "network")
 FITTED = ("fill", "block")
+LIMITED = (*FITTED, "size")
 LATTICE = (*MESHED, "slice", "size")
 SPEC_GROUP = "a whole specification"
 MATERIAL_GROUP = "what it is printed of, and how"
@@ -184,14 +185,15 @@ RUN_OPTIONS = (
         "FILE.json", writes="report",
     ),
     RunOption(
-        "max-triangles", FITTED, "coarser facets, where the file would have more; the cost is told",
+        "max-triangles", LIMITED,
+        "coarser facets, where the file would have more; the cost is told",
         "N", LIMITS_GROUP, int,
     ),
     RunOption(
-        "max-size", FITTED, "the same, where the file would be larger", "MB", LIMITS_GROUP, float,
+        "max-size", LIMITED, "the same, where the file would be larger", "MB", LIMITS_GROUP, float,
     ),
     RunOption(
-        "service", FITTED,
+        "service", LIMITED,
         f"both, as a service takes them: {', '.join(row.name for row in SERVICES.values())}",
         "NAME", LIMITS_GROUP,
     ),
@@ -270,6 +272,16 @@ RUN_OPTIONS = (
         "tell how thick struts come out, by a table (LPBF-Ti64, LPBF-316L, SLS-PA12) or a .csv "
         "file of your own with inclination, nominal, measured; the print report is of these",
         "TABLE", MATERIAL_GROUP, reads="table of printed diameters",
+    ),
+    RunOption(
+        "as-printed", ("properties",),
+        "of struts as they come out, by a table as of fill: of the one radius that takes the "
+        "volume of all",
+        "TABLE", reads="table of printed diameters",
+    ),
+    RunOption(
+        "build-direction", ("properties",), "from the build plate up (default 0,0,1)", "X,Y,Z",
+        read=three_numbers, default=(0.0, 0.0, 1.0),
     ),
     RunOption(
         "compensate", FITTED,

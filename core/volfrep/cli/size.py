@@ -29,6 +29,7 @@ from .solve import tell_expected
 from .telling import print_rows, print_summary, print_warnings
 
 if TYPE_CHECKING:
+    from ..design.spec import LatticeSpec
     from ..jobs.sizing import Goal, SizedPart
     from ..sizing.optimise import Step
 
@@ -50,6 +51,7 @@ def _size(given: argparse.Namespace) -> int | None:
     from ..jobs.infill import Infill
     from ..jobs.sizing import goal_of, prove_file, size, write_radii, write_thickness
     from ..loads.load_file import read_load_cases
+    from ..output.file_size import fill_within
     from ..output.sources import FilledPart
     from ..output.writer import Settings, writer_of
     from ..reports.sizing_report import sizing_rows
@@ -72,9 +74,19 @@ def _size(given: argparse.Namespace) -> int | None:
                 progress=told, cache=cache, watch=_teller(options.quiet, options.steps, goal),
             )  # fmt: skip
         seconds = time.perf_counter() - start
+        # What was found is not lost where the file cannot be made.
+        if options.thickness is not None:
+            write_thickness(made.spec, options.thickness)
+        if options.radii is not None:
+            write_radii(made, options.radii)
+            _write_specification(options, made)
         streamed = options.form.streamed and not options.prove_file
-        infill = Infill(solid, made.spec, progress=progress, cache=cache, streamed=streamed)
-        part = FilledPart(infill, cache, progress)
+
+        def fill(spec: LatticeSpec) -> FilledPart:
+            infill = Infill(solid, spec, progress=progress, cache=cache, streamed=streamed)
+            return FilledPart(infill, cache, progress)
+
+        part, kept = fill_within(solid, made.spec, options.limits, options.form, fill)
         report = part.result.report
         writer_of(options.form).write(part, options.output, Settings())
         if options.prove_file:
@@ -82,11 +94,6 @@ def _size(given: argparse.Namespace) -> int | None:
                 made, part.result.mesh, loads, voxel=options.voxel, progress=progress,
                 tell=tell_expected(options.quiet),
             )  # fmt: skip
-    if options.thickness is not None:
-        write_thickness(made.spec, options.thickness)
-    if options.radii is not None:
-        write_radii(made, options.radii)
-        _write_specification(options, made)
     if options.report is not None:
         write_json(options.report, {"sizing": made.report, "part": report.as_dict()})
     if options.plot is not None:
@@ -95,7 +102,7 @@ def _size(given: argparse.Namespace) -> int | None:
         write_sizing_plot(made.report, options.plot)
     if options.picture is not None:
         _picture(options, made)
-    print_warnings(made.report["notes"])
+    print_warnings([*made.report["notes"], *kept])
     print_summary(report, options.output, quiet=options.quiet, before=seconds)
     if not options.quiet:
         print_rows(*sizing_rows(made.report), ("time of sizing", f"{seconds:.1f} s of it"))

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..design.as_printed import PrintedTable
+from ..design.cells import UnitCell
 from ..design.spec import LatticeSpec
 from ..grid.strut_graph import Wireframe
 from ..reports.printability import inclinations, unit_direction
@@ -99,6 +100,53 @@ def as_printed(
     )  # fmt: skip
 
 
+def printed_radius(
+    cell: UnitCell,
+    cell_size: float,
+    radius: float,
+    table: PrintedTable,
+    build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0),
+) -> tuple[float, str]:
+    """The one radius whose struts take the volume of those that come out of an endless lattice.
+
+    Args:
+        cell: of struts; its axes are the printer's.
+        cell_size: L, mm.
+        radius: as drawn, mm.
+        table: of what is added.
+        build_direction: from the build plate up, of any length.
+
+    Returns:
+        The radius in mm, and a sentence that says so.
+
+    Raises:
+        VolfrepError: the direction is none, or no strut comes out.
+
+    >>> from volfrep.design.as_printed import find_printed_table
+    >>> from volfrep.design.cells import find_cell
+    >>> radius, _ = printed_radius(find_cell("BCC"), 5, 0.4, find_printed_table("LPBF-316L"))
+    >>> round(2 * radius, 4)
+    0.8227
+    """
+    way, angle = _ways(cell, unit_direction(build_direction), np.eye(3))
+    length = np.linalg.norm(way, axis=1) * cell_size
+    widths = cell.widths if len(cell.widths) else np.ones(len(way))
+    drawn = 2.0 * radius * widths
+    out = np.maximum(table.printed(drawn, angle), 0.0)
+    mean = float(np.sqrt((length * out**2).sum() / (length * widths**2).sum()))
+    if mean <= 0.0:
+        raise VolfrepError(
+            f"Struts of {drawn.min():.3g} mm do not come out at all ({table.title}): draw thicker "
+            "ones."
+        )
+    told = f"{out.min():.3f}" if np.ptp(out) < 5e-4 else f"{out.min():.3f} to {out.max():.3f}"
+    note = (
+        f"Struts that are drawn {drawn.max():.3f} mm thick come out {told} mm thick "
+        f"({table.title}); told are the properties of {mean:.3f} mm, which take the same volume."
+    )
+    return mean / 2.0, note
+
+
 def compensated(
     spec: LatticeSpec,
     table: PrintedTable,
@@ -123,12 +171,8 @@ def compensated(
             "leave gradings, maps, targets and other kinds of lattice out."
         )
     cell = spec.kind.cube
-    ends = cell.nodes[cell.struts] * np.array(cell.edges)
-    way = ends[:, 1] - ends[:, 0]
-    if spec.orientation is not None:
-        way = times(way, spec.orientation.matrix.T)
-    rise = np.abs(along(way, up)) / np.linalg.norm(way, axis=1)
-    angle = np.degrees(np.arcsin(np.minimum(rise, 1.0)))
+    turn = np.eye(3) if spec.orientation is None else spec.orientation.matrix
+    way, angle = _ways(cell, up, turn)
     widths = cell.widths if len(cell.widths) else np.ones(len(way))
     wanted = 2.0 * spec.strut_radius * widths
     drawn: Floats = table.drawn(wanted, angle)
@@ -150,3 +194,11 @@ def compensated(
     drawn_cell = replace(cell, widths=factors)
     # Whether it is laid as octants or as a graph follows from the cell.
     return replace(spec, cell=drawn_cell, network=None, strut_radius=thickest / 2.0), note
+
+
+def _ways(cell: UnitCell, up: Floats, turn: Floats) -> tuple[Floats, Floats]:
+    """(s, 3) struts of a cell in units of L, and (s,) their inclinations, degrees."""
+    ends = cell.nodes[cell.struts] * np.array(cell.edges)
+    way = times(ends[:, 1] - ends[:, 0], turn.T)
+    rise = np.abs(along(way, up)) / np.linalg.norm(way, axis=1)
+    return way, np.asarray(np.degrees(np.arcsin(np.minimum(rise, 1.0))))

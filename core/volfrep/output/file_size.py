@@ -62,6 +62,27 @@ def fit_file(
     return fit_within(spec, limits, expect, tried)
 
 
+def fill_within(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    limits: FileLimits,
+    form: Form,
+    make: Callable[[LatticeSpec], S],
+) -> tuple[S, tuple[str, ...]]:
+    """A filled solid, with facets as fine as limits of its file let them be if there are any.
+
+    Returns:
+        What `make` has made, and what the limits have cost, for the user.
+
+    Raises:
+        VolfrepError: as of `fit_within`.
+    """
+    if not limits:
+        return make(spec), ()
+    found = fit_file(spec, limits, form, filled_triangles(solid), make)
+    return found.made, (found.note,) if found.note else ()
+
+
 def filled_triangles(solid: TriangleMesh) -> Callable[[LatticeSpec], float]:
     """What tells about how many triangles a solid has that a specification fills."""
 

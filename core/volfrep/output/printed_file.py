@@ -14,7 +14,7 @@ from ..jobs.targets import solve_target
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.cache import StageCache
 from ..util.progress import ProgressCallback
-from .file_size import filled_triangles, fit_file
+from .file_size import fill_within
 from .form import find_form
 from .sources import FilledPart
 
@@ -68,9 +68,5 @@ def fill_for_printer(
     def make(wanted: LatticeSpec) -> FilledPart:
         return FilledPart(solve_target(solid, wanted, progress=progress, cache=cache), cache)
 
-    if not limits:
-        return PrintedFile(make(spec).mesh, tuple(notes))
-    form = find_form(f"part{suffix}")
-    found = fit_file(spec, limits, form, filled_triangles(solid), make)
-    notes += [found.note] if found.note else []
-    return PrintedFile(found.made.mesh, tuple(notes))
+    made, kept = fill_within(solid, spec, limits, find_form(f"part{suffix}"), make)
+    return PrintedFile(made.mesh, (*notes, *kept))

@@ -94,6 +94,19 @@ def test_the_mass_asked_for_is_that_of_the_mesh(part: Path, cell: str) -> None:
 
 # FreeCAD's test of the same shows it sooner.
 @pytest.mark.slow
+def test_the_file_of_a_sized_part_keeps_within_limits(
+    part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    wanted = ("--steps", "3", "--no-proof", *WHOLE)
+    size(part, *wanted)
+    most = int(0.75 * len(read_triangles(part.with_name("out.stl")).triangles))
+    size(part, *wanted, "--max-triangles", most)
+    count = len(read_triangles(part.with_name("out.stl")).triangles)
+    assert 0.6 * most < count <= most
+    assert "facets along a cell in place of" in capsys.readouterr().err
+
+
+@pytest.mark.slow
 def test_thin_struts_that_carry_little_are_taken_away(part: Path, tmp_path: Path) -> None:
     radii, spec, report = (tmp_path / name for name in ("r.csv", "s.toml", "report.json"))
     more = ("--radii", radii, "--write-spec", spec, "--report", report, "--no-proof")

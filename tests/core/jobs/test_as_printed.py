@@ -106,3 +106,20 @@ def test_a_table_of_ones_own_is_read_and_what_is_not_measured_left_out(tmp_path)
 def test_what_cannot_be_compensated_is_refused(wanted, said):
     with pytest.raises(volfrep.VolfrepError, match=said):
         volfrep.fill(samples.box((20, 20, 20)), cell_size=10, compensate="LPBF-Ti64", **wanted)
+
+
+def test_properties_are_those_of_struts_that_come_out():
+    told = []
+    drawn = volfrep.properties("BCC", 5, 0.4)
+    out = volfrep.properties("BCC", 5, 0.4, as_printed="LPBF-316L", note=told.append)
+    assert out.strut_radius == pytest.approx(0.8227 / 2)
+    assert out.relative_density > drawn.relative_density
+    assert "come out 0.823 mm thick" in told[0]
+    # Of Columns, all along z: as thick as the table says of 90 degrees, or of 0 if built sideways.
+    for up, added in (((0, 0, 1), 0.036), ((1, 0, 0), 0.036)):
+        found = volfrep.properties(
+            "Columns", 5, 0.4, as_printed="LPBF-Ti64", build_direction=up, note=told.append
+        )
+        assert 2 * found.strut_radius == pytest.approx(0.8 + added)
+    with pytest.raises(volfrep.VolfrepError, match="their radius as drawn"):
+        volfrep.properties("Gyroid", 5, wall_thickness=0.5, as_printed="LPBF-Ti64")

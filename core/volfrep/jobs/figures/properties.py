@@ -35,6 +35,9 @@ def lattice_properties(
     wall_formula: str = "",
     exact: bool = False,
     told: Callable[[float], None] = lambda seconds: None,
+    as_printed: str | None = None,
+    build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0),
+    note: Callable[[str], None] = lambda sentence: None,
 ) -> CellProperties:
     """What the endless lattice of a cell does.
 
@@ -54,6 +57,10 @@ def lattice_properties(
         wall_formula: of the cell ``Formula``.
         exact: homogenise also what the catalogue knows, which it tells at once.
         told: of struts, given how many seconds are left, about, as soon as that is known.
+        as_printed: table of printed diameters, as of `fill`: the properties are then those of
+            struts of the one radius that takes the volume of all that come out.
+        build_direction: from the build plate up, in the cell's axes.
+        note: given a sentence on what comes out.
 
     Raises:
         VolfrepError: a value makes no sense, or the cell carries no load.
@@ -69,6 +76,15 @@ def lattice_properties(
         given = any_cell(given, cell_values, wall_formula)
     elif cell_values:
         raise VolfrepError("Values are for a cell that is given by its name or file.")
+    if as_printed is not None:
+        from ...design.as_printed import find_printed_table
+        from ..as_printed import printed_radius
+
+        if strut_radius is None or not isinstance(cell, UnitCell):
+            raise VolfrepError("What comes out is known of struts: give their radius as drawn.")
+        table = find_printed_table(as_printed)
+        strut_radius, said = printed_radius(cell, cell_size, strut_radius, table, build_direction)
+        note(said)
     kinds = (SolidMaterial, type(None))
     solid = find_material(material) if isinstance(material, str) else material
     check_kind("material", solid, kinds, "a material's name or file")

@@ -19,7 +19,6 @@ from ..design.parameters import BY_NAME
 from ..util.progress_bar import drawn
 from .files import read_part
 from .options import (
-    BlockOptions,
     FillOptions,
     MeshOptions,
     block_options,
@@ -156,7 +155,7 @@ def _fill_within(
 
 
 def _make_within(
-    options: FillOptions | BlockOptions,
+    options: MeshOptions,
     expect: Callable[[LatticeSpec], float],
     make: Callable[[LatticeSpec], FilledPart | Free],
     start: float,
@@ -236,7 +235,10 @@ def _network(given: argparse.Namespace) -> None:
 
     start = time.perf_counter()
     with drawn(options.quiet) as progress:
-        _make(FreeGraph(options.spec, progress), options, start, {})
+        if options.limits:
+            _make_within(options, lambda _: 0.0, lambda spec: FreeGraph(spec, progress), start, {})
+        else:
+            _make(FreeGraph(options.spec, progress), options, start, {})
 
 
 def _make(

@@ -332,11 +332,9 @@ def _printed_table(given: argparse.Namespace, form: Form) -> PrintedTable | None
 
 
 def _limits(given: argparse.Namespace, form: Form) -> FileLimits:
-    """Those of the file; none of a network's, whose command has no such options."""
-    from ..design.file_limits import FileLimits, limits_of
+    """Those of the file."""
+    from ..design.file_limits import limits_of
 
-    if not hasattr(given, "max_triangles"):
-        return FileLimits()
     limits = limits_of(given.service, given.max_triangles, given.max_size)
     if limits and not form.bytes_by:
         raise VolfrepError(

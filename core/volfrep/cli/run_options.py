@@ -22,7 +22,7 @@ from .parser import numbers, shard, three_numbers, three_whole_numbers
 
 MESHED = ("fill", "block", "network")
 FITTED = ("fill", "block")
-LIMITED = (*FITTED, "size")
+LIMITED = (*MESHED, "size")
 LATTICE = (*MESHED, "slice", "size")
 SPEC_GROUP = "a whole specification"
 MATERIAL_GROUP = "what it is printed of, and how"

@@ -7,12 +7,15 @@ file that was made the next is as much finer or coarser as its own size says.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
 from ..design.file_limits import FileLimits
 from ..design.spec import LatticeSpec
+from ..design.spec_parts import DEFAULT_RELATIVE_DEVIATION
+from ..graphs.surface import FEWEST_SIDES, sides_for
 from ..util.errors import VolfrepError
 
 T = TypeVar("T")
@@ -58,14 +61,11 @@ def fit_within(
         make: makes one; gives it, its triangles and the size of its file in megabytes.
 
     Raises:
-        VolfrepError: the lattice has no cells, or not even the coarsest facets that keep its
-            struts round, or its walls whole, are few enough.
+        VolfrepError: not even the coarsest facets that keep its struts round, or its walls whole,
+            are few enough.
     """
     if not spec.kind.has_grid:
-        raise VolfrepError(
-            "Limits of a file are kept by coarser facets of cells, and a graph lattice has none: "
-            "give it a larger deviation instead."
-        )
+        return _fit_corners(spec, limits, make)
     finest, coarsest = spec.facets_along_cell, spec.kind.coarsest_resolution
     coarsest = min(coarsest, finest)
     low, high = coarsest, finest
@@ -96,6 +96,43 @@ def fit_within(
             "tries: give a larger --deviation yourself."
         )
     return best
+
+
+def _fit_corners(
+    spec: LatticeSpec,
+    limits: FileLimits,
+    make: Callable[[LatticeSpec], tuple[T, int, float]],
+) -> Fitted[T]:
+    """The same of a graph lattice, which has facets round its struts and no others."""
+    made, triangles, megabytes = make(spec)
+    used = _used(limits, triangles, megabytes)
+    if used <= 1.0:
+        return Fitted(made, spec, used, "")
+    radius, relative = spec.strut_radius, DEFAULT_RELATIVE_DEVIATION
+    if spec.deviation is not None:
+        relative = spec.deviation / radius
+    elif spec.resolution is not None:
+        relative = (spec.cell_size / spec.resolution / radius) ** 2 / 16.0
+    finest = corners = sides_for(relative)
+    for _ in range(MOST_FILES):
+        if corners == FEWEST_SIDES:
+            break
+        corners = max(min(int(corners * AIM / used), corners - 1), FEWEST_SIDES)
+        deviation = (2.0 * math.pi / corners) ** 2 / 16.0 * radius
+        tried = replace(spec, resolution=None, deviation=deviation * (1.0 + 1e-9))
+        made, triangles, megabytes = make(tried)
+        used = _used(limits, triangles, megabytes)
+        if used <= 1.0:
+            note = (
+                f"To keep within {limits} struts have {corners} corners round in place of "
+                f"{finest}: they stray {deviation:.2g} mm from round ones."
+            )
+            return Fitted(made, tried, used, note)
+    size = "" if limits.megabytes is None else f" and {megabytes:.3g} MB"
+    raise VolfrepError(
+        f"With the fewest corners round its struts ({FEWEST_SIDES}) the file has {triangles:,} "
+        f"triangles{size}, more than {limits}: leave struts out or make the part smaller."
+    )
 
 
 def _with(spec: LatticeSpec, facets: int) -> LatticeSpec:

@@ -96,3 +96,18 @@ def test_services_are_known_by_name_source_and_date():
         limits_of("nobody", None, None)
     with pytest.raises(VolfrepError, match="limits of 5 are not known"):
         fill(BOX, cell="BCC", service=5)
+
+
+def test_struts_of_a_graph_have_fewer_corners(tmp_path, capsys):
+    graph = tmp_path / "graph.csv"
+    graph.write_text("x1,y1,z1,x2,y2,z2\n0,0,0,20,0,0\n20,0,0,20,20,0\n20,20,0,0,0,15\n")
+    out = tmp_path / "graph.stl"
+    wanted = ("network", graph, "-o", out, "--strut-radius", 1, "--deviation", 0.005)
+    assert run(*wanted) == 0
+    before = len(trimesh.load(out).faces)
+    most = int(0.7 * before)
+    assert run(*wanted, "--max-triangles", most) == 0
+    assert 0.5 * most < len(trimesh.load(out).faces) <= most
+    assert "corners round in place of" in capsys.readouterr().err
+    assert run(*wanted, "--max-triangles", 100) == 2
+    assert "With the fewest corners round its struts (10)" in capsys.readouterr().err

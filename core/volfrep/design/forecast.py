@@ -22,14 +22,16 @@ from ..util.types import Floats
 from . import costs
 from .spec import LatticeSpec
 
-#: The least share of the solid that is left within a skin, where twice the skin exceeds it.
-LEAST_INSIDE = 0.05
 #: Where less than this share of the solid is left within a skin, parts of it have no lattice.
 ROOMY = 0.2
 #: Lines into the solid by which narrow rooms are told; rooms as wide as the skin are not narrow,
 #: and the cubes are no finer than for a room of the least width (thicknesses).
 NARROW_LINES = 2048
 NARROWEST = 0.05
+#: About so many points of a solid tell what lies within its skin; in its box there are no more than
+#: this power of 2.
+DEPTH_POINTS = 1024
+MOST_POINTS = 14
 #: Points by which the cells about an axis or a centre are counted (a power of 2), and how wide a
 #: cell is at least that holds a lattice, in radii.
 MAP_POINTS = 12
@@ -79,7 +81,7 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     volume = abs(solid.volume)
     area = solid.area
     skin = 0.0 if spec.skin is None else spec.skin.rough_volume(solid)
-    inside = max(volume - skin, LEAST_INSIDE * volume)
+    inside = volume * (share_deeper(solid, skin / area) if skin else 1.0)
     graph = spec.kind.graph_in(inside, area)
     if graph is not None:
         return _forecast_graph(solid, spec, *graph)
@@ -111,6 +113,31 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     held = max(held, costs.BYTES_PER_BEND * bends + costs.BYTES_PER_NARROW * narrow)
     held += costs.BYTES_GRADED if spec.is_graded else 0.0
     return _forecast(cells, spec.kind.strut_shares(), triangles, held / triangles, seconds)
+
+
+def share_deeper(solid: TriangleMesh, depth: float) -> float:
+    """The share of a solid that lies deeper below its surface than a depth in mm; never nothing.
+
+    By points spread evenly, whose depths are kept: another depth asks about the same ones.
+    """
+    depths = _depths(solid)
+    deeper = len(depths) - int(np.searchsorted(depths, depth))
+    return max(float(deeper), 0.5) / max(len(depths), 1)
+
+
+@lru_cache(maxsize=4)
+def _depths(solid: TriangleMesh) -> Floats:
+    """How deep points lie that are spread evenly over a solid, mm; ascending."""
+    from ..spatial.proximity import closest_points  # of no use to blocks, and slow to import
+    from ..spatial.rays import inside_points
+
+    low, high = solid.bounds
+    # As many in the box as give about the wanted number inside.
+    power = np.log2(DEPTH_POINTS * float((high - low).prod()) / max(abs(solid.volume), 1e-300))
+    points = low + even_points(3, round(min(max(power, 1.0), MOST_POINTS))) * (high - low)
+    points = points[inside_points(solid, points, Monitor())]
+    result: Floats = np.sort(closest_points(solid, points)[1])
+    return result
 
 
 def skin_bends(solid: TriangleMesh, spec: LatticeSpec) -> float:

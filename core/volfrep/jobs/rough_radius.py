@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..design.cells import UnitCell
-from ..design.forecast import LEAST_INSIDE, cell_volume
+from ..design.forecast import cell_volume, share_deeper
 from ..design.kinds.strut_cells import strut_shares
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import MAX_RESOLUTION, largest_radius
@@ -104,9 +104,8 @@ def solve_target_roughly(solid: TriangleMesh, spec: LatticeSpec) -> LatticeSpec:
     if spec.target is None or spec.output == "domain":
         return spec
     whole = abs(solid.volume)
-    # Exact for long prisms about a circle; others measured within 2 % of the volume.
     skin = 0.0 if spec.skin is None else spec.skin.rough_volume(solid)
-    inside = whole * max(max(1.0 - 0.5 * skin / whole, 0.0) ** 2, LEAST_INSIDE)
+    inside = whole * (share_deeper(solid, skin / solid.area) if skin else 1.0)
     bare, skin = endless_bare(spec, inside), spec.skin_volume(whole, inside)
     # What the skin takes is known about only: the forecast refuses nothing.
     return replace(spec, strut_radius=radius_of_target(spec, bare, inside, skin, clip=True))

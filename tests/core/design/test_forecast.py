@@ -12,6 +12,7 @@ from volfrep.design.forecast import (
     forecast_block,
     forecast_fill,
     narrow_room,
+    share_deeper,
     skin_bends,
 )
 from volfrep.design.grading import CellMap, SizeGrading
@@ -94,6 +95,21 @@ def test_a_surface_bends_along_the_edges_of_a_box_and_all_over_a_ball():
     assert box == pytest.approx(4 * 90.0 * np.pi / 2.0 / 2.0)
     assert ball == pytest.approx(8.0 * np.pi * 20.0 / 2.0, rel=0.01)
     assert skin_bends(samples.box(), LatticeSpec(shell=0.0)) == 0.0
+
+
+def test_what_a_thick_skin_leaves_is_known_of_a_box_and_a_ball():
+    box, ball = samples.box((40.0, 30.0, 20.0)), samples.sphere(20.0)
+    for depth in (1.0, 4.0, 7.0):
+        left = np.prod(np.array([40.0, 30.0, 20.0]) - 2.0 * depth) / 24000.0
+        assert share_deeper(box, depth) == pytest.approx(left, abs=0.02)
+        assert share_deeper(ball, depth) == pytest.approx((1.0 - depth / 20.0) ** 3, abs=0.02)
+    assert 0.0 < share_deeper(box, 11.0) < 0.002
+
+
+def test_a_lattice_under_a_thick_skin_has_the_triangles_that_are_told():
+    spec = LatticeSpec("CVC", cell_size=4.0, strut_radius=0.4, shell=6.0)
+    solid = samples.box((40.0, 30.0, 20.0))
+    assert agrees(forecast_fill(solid, spec).triangles, fill(solid, spec).report.triangles)
 
 
 def test_rooms_between_two_skins_are_narrow_in_a_plate_little_thicker_than_both():

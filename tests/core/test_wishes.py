@@ -43,6 +43,8 @@ def test_layers_of_a_part(tmp_path: Path) -> None:
     box = trimesh.creation.box((20, 20, 10))
     part = volfrep.fill(box, cell="BCC", cell_size=10, strut_radius=1, shell=1, resolution=8)
     assert part.layers(tmp_path / "layers", layer=1.0, pixel=0.5).count == 10
+    part.save(tmp_path / "saved", layer=2.0)
+    assert len(list((tmp_path / "saved").glob("*.png"))) == 5
     with pytest.raises(volfrep.VolfrepError, match="no format 'tif'"):
         part.layers(tmp_path / "more", layer=1.0, form="tif")
 

@@ -204,6 +204,8 @@ class Part:
         from ..output.writer import Settings, writer_of
 
         check_kind("form", form, (str, type(None)), "a word such as 'beams'")
+        if form is None and layer is not None and not os.path.splitext(path)[1]:
+            form = "png"
         found = find_form(path, form)
         deck = Material(density=self.spec.density)
         if material is not None:

@@ -16,6 +16,7 @@ import numpy as np
 from scipy import ndimage
 
 from ..loads.load_cases import LoadCase
+from ..mechanics.assembly import System, solve
 from ..mechanics.elements import solid_stiffness, von_mises
 from ..mechanics.materials import SolidMaterial
 from ..util.errors import VolfrepError
@@ -30,8 +31,6 @@ from .cell_law import in_cell
 
 #: Elements with less lattice, or less skin, are not told of.
 TOLD = 0.1
-#: Of conjugate gradients for heat.
-MOST_STEPS = 5_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,31 +215,13 @@ def conduct(
         surface[nodes_in(model.loaded.body, region)] = True
         at = model.loaded.nodes_at(surface)[0]
         value[at], held[at] = given, k
-    free = held < 0
-    value[free] = _conjugate(matrix[free][:, free], -(matrix[free] @ value))
+    free = (held < 0).astype(float)[:, None]
+    forces = -(matrix @ value)[:, None]
+    try:
+        value += solve(System(matrix, forces, 1), forces, np.zeros(1), free)[:, 0]
+    except VolfrepError as error:
+        raise VolfrepError(
+            "The heat's equations did not converge: do the regions hang together?"
+        ) from error
     flow = matrix @ value
     return value, np.array([flow[held == k].sum() for k in range(len(temperatures))])
-
-
-def _conjugate(matrix: Any, right: Floats) -> Floats:
-    """The solution of positive definite equations, by conjugate gradients scaled by the diagonal.
-
-    Raises:
-        VolfrepError: no convergence.
-    """
-    inverse = 1.0 / np.maximum(matrix.diagonal(), 1e-300)
-    found, left = np.zeros_like(right), right.copy()
-    ahead = inverse * left
-    step, work = ahead, float(left @ ahead)
-    enough = 1e-18 * work
-    for _ in range(MOST_STEPS):
-        if work <= enough:
-            return found
-        image = matrix @ step
-        size = work / float(step @ image)
-        found += size * step
-        left -= size * image
-        ahead = inverse * left
-        before, work = work, float(left @ ahead)
-        step = ahead + work / before * step
-    raise VolfrepError("The heat's equations did not converge: do the regions hang together?")

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
@@ -180,11 +181,20 @@ def share_of(body: Body, region: Region) -> Share:
     return Share(rows, even, 0.0, np.zeros((len(rows), 3)))
 
 
-def resultant(nodes: Floats, loads: Floats, about: Floats) -> tuple[Floats, Floats]:
-    """(3,) N and (3,) N mm: the sum of (n, 6) loads at nodes, and their moment about a point."""
-    force: Floats = loads[:, :3].sum(axis=0)
-    moment: Floats = loads[:, 3:].sum(axis=0) + np.cross(nodes - about, loads[:, :3]).sum(axis=0)
-    return force, moment
+def resultant(
+    nodes: Floats, loads: Floats, about: ArrayLike = (0.0, 0.0, 0.0)
+) -> tuple[Floats, Floats]:
+    """(3,) N and (3,) N mm: the sum of loads at nodes, and their moment about a point.
+
+    Args:
+        nodes: (n, 3) mm.
+        loads: (n, 3) forces, or (n, 6) forces and moments.
+        about: the point, mm.
+    """
+    moment: Floats = np.cross(nodes - np.asarray(about), loads[:, :3]).sum(axis=0)
+    if loads.shape[1] == 6:
+        moment = loads[:, 3:].sum(axis=0) + moment
+    return loads[:, :3].sum(axis=0), moment
 
 
 def _held(body: Body, case: LoadCase) -> tuple[Bools, Floats]:

@@ -18,7 +18,7 @@ from scipy.sparse import csr_matrix
 from scipy.spatial import cKDTree
 
 from ..loads.load_cases import LoadCase
-from ..loads.nodal_loads import Body, nodal_case, share_of
+from ..loads.nodal_loads import Body, nodal_case, resultant, share_of
 from ..loads.regions import facet_normals
 from ..mechanics.elements import CORNERS
 from ..mesh.triangle_mesh import TriangleMesh, compact
@@ -166,7 +166,11 @@ class Loaded:
             share = share_of(self.body, load.region)
             weights = self._weights(self.body.nodes[share.nodes]).T @ share.weights
             places.append((load.name, np.asarray(weights)))
-        asked = resultant(self.body.nodes[acting], forces) + resultant(self.nodes, own)
+        of_forces, of_weight = (
+            resultant(self.body.nodes[acting], forces),
+            resultant(self.nodes, own),
+        )
+        asked = np.concatenate(of_forces) + np.concatenate(of_weight)
         return VoxelCase(case.name, held, moved, loads + own, tuple(places), asked)
 
     def _held(self, held: Bools, moved: Floats) -> tuple[Bools, Floats]:
@@ -248,8 +252,3 @@ class Loaded:
                 f"Load case '{name}': the part may move as a whole, since its supports do not hold "
                 "it in all directions and turns: hold more of it."
             )
-
-
-def resultant(points: Floats, forces: Floats) -> Floats:
-    """(6,) the sum of forces (n, 3) at points, and their moment about the origin."""
-    return np.concatenate([forces.sum(axis=0), np.cross(points, forces).sum(axis=0)])

@@ -11,6 +11,7 @@ import numpy as np
 from scipy import ndimage
 
 from ..loads.load_cases import LoadCase
+from ..loads.nodal_loads import resultant
 from ..mechanics.elements import von_mises
 from ..mechanics.materials import SolidMaterial
 from ..mesh.triangle_mesh import TriangleMesh
@@ -19,7 +20,7 @@ from ..util.peaks import most_but_peaks
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .bricks import Brick, CutBricks, brick
-from .loaded import Loaded, VoxelCase, resultant, solve_laid, surface_body
+from .loaded import Loaded, VoxelCase, solve_laid, surface_body
 from .multigrid import AT_ONCE, Elements, Fine, Multigrid, elements_at
 from .shares import VoxelGrid, voxel_grid
 
@@ -203,8 +204,8 @@ def figures_of(model: VoxelModel, state: VoxelState) -> dict[str, Any]:
     worst = int(np.argmax(np.where(told, state.stress, 0.0)))
     places = {"all": told, "outside": told & outer_places(model)}
     places["thick"] = told & thick_places(model)
-    applied = resultant(model.nodes, case.loads)
-    back = resultant(model.nodes, state.reactions)
+    applied = np.concatenate(resultant(model.nodes, case.loads))
+    back = np.concatenate(resultant(model.nodes, state.reactions))
     return {
         "name": case.name,
         "displacement_mm": float(size[most]),

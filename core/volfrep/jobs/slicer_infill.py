@@ -178,7 +178,7 @@ def cut_bands(
             volume, None if piece is None else as_mesh(piece),
         )
         for k, (piece, volume, border) in enumerate(
-            zip(there, printed.sparse, printed.borders, strict=True)
+            zip(there, printed.sparse.tolist(), printed.borders.tolist(), strict=True)
         )
         if k == 0 or volume > 0.0
     )  # fmt: skip
@@ -345,7 +345,7 @@ def _add_up(
             sparse[k] += depth * float(own.area())
             borders[k] += depth * _perimeter(own)
             inner = denser
-    return _Printed(walls, sparse, borders)
+    return _Printed(float(walls), sparse, borders)
 
 
 def _grown(solid: manifold3d.CrossSection, reach: float) -> manifold3d.CrossSection:

@@ -46,6 +46,7 @@ def test_the_filament_is_the_integral_of_the_field(graded):
     assert graded.mean_density == pytest.approx(by_depth(8.0), rel=0.01)
     assert graded.filament == pytest.approx(48000 * by_depth(8.0) / 100, rel=0.01)
     assert sum(band.volume for band in graded.bands) == pytest.approx(48000, rel=1e-6)
+    assert type(graded.mass) is type(graded.mean_density) is float  # of Python, for whoever prints
 
 
 def test_bands_are_closed_and_lie_within_the_one_before(graded):

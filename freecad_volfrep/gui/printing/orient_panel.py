@@ -53,6 +53,8 @@ class OrientPanel:
     """
 
     def __init__(self, obj: App.DocumentObject) -> None:
+        import pivy.coin  # noqa: F401 - before FreeCAD 1.0 is asked for a scene
+
         self._obj, self._doc = obj, obj.Document
         self._found: Orientations | None = None
         self._node: Any = None

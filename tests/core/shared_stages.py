@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What many tests begin with is computed once: the wall of a solid, the octants of a cell.
+"""What many tests begin with is computed once: wall and depths of a solid, octants of a cell.
 
 Half of what filling a small part costs. A test that changes the engine (`monkeypatch`) computes
 them itself, and so does a run whose progress is followed; what work they were is counted as ever.
@@ -11,6 +11,7 @@ from collections.abc import Callable, Hashable
 from typing import Any
 
 from volfrep.jobs.kinds import strut_block, strut_lattice
+from volfrep.jobs.part_depth import PartDepth
 from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.shell import domain
 from volfrep.util import threads
@@ -63,7 +64,27 @@ def _shared(
     return once
 
 
+def share_depths() -> None:
+    """How deep points lie in a part that was looked at before, with the last answers to others."""
+    find, kept = PartDepth.__init__, {}
+
+    def once(self: PartDepth, solid: Any, *skin: Any, **named: Any) -> None:
+        if not ON[0]:
+            find(self, solid, *skin, **named)
+            return
+        key = content_of(solid.vertices, solid.triangles), skin, tuple(sorted(named.items()))
+        if key not in kept:
+            if len(kept) == KEPT:
+                del kept[next(iter(kept))]
+            find(self, solid, *skin, **named)
+            kept[key] = dict(self.__dict__)
+        self.__dict__.update(kept[key])
+
+    PartDepth.__init__ = once  # type: ignore[method-assign]
+
+
 def share() -> None:
     """From now on, in this process."""
     domain.inner_wall = _shared(domain.inner_wall, _wall)
     strut_block.mesh_octants = strut_lattice.mesh_octants = _shared(mesh_octants, _octants)
+    share_depths()

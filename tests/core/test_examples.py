@@ -22,6 +22,7 @@ WITH_EXAMPLES = sorted(
 
 @pytest.mark.slow_cases(
     "volfrep.studies.sweep",
+    "volfrep.jobs.figures.find",
     "volfrep.tpms.widths",
     "volfrep.mechanics.density",
     "volfrep.mechanics.summary",

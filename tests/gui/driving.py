@@ -357,9 +357,11 @@ def picture(name):
 
 
 def shoot(name):
-    """The whole screen as it is now."""
+    """The whole screen as it is now, hardly compressed, which would take most of the time."""
     QtGui.QGuiApplication.sync()
-    subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
+    image = QtGui.QGuiApplication.primaryScreen().grabWindow(0)
+    if not image.save(str(OUT / f"{name}.png"), "PNG", 85):
+        raise OSError(f"the picture {name} cannot be written")
 
 
 def mark(name, *widgets):
@@ -907,6 +909,17 @@ def _write(name):
     figures.clear()
 
 
+def _share_depths():
+    """Most checks open a panel on the same box: how deep points lie in it is found once."""
+    from freecad_volfrep.engine import require_engine
+
+    require_engine()
+    sys.path.append(str(Path(__file__).resolve().parents[1] / "core"))
+    import shared_stages
+
+    shared_stages.share_depths()
+
+
 def _run(drive):
     """Once FreeCAD is up: drive and leave."""
     # PySide tells what a slot or an event's handler raises to this, and goes on.
@@ -922,6 +935,7 @@ def _run(drive):
             view.SetBool("UseNavigationAnimations", False)
             Gui.activateWorkbench("VolfrepWorkbench")
             settle()
+            _share_depths()
             drive()
         except BaseException as error:  # FreeCAD's abort is no Exception
             fail_by(error)

@@ -222,9 +222,9 @@ def test_struts_along_the_wall_lie_on_it_and_hold_what_ends_there():
 
 
 def test_a_given_network_is_trimmed_skinned_and_graded():
-    frame = volfrep.block((3, 2, 2), cell="Kelvin", cell_size=10, strut_radius=0.6).struts
+    frame = volfrep.block((2, 2, 1), cell="Kelvin", cell_size=10, strut_radius=0.6).struts
     network = make_network(frame.nodes, frame.struts)
-    solid = samples.box((30.0, 20.0, 20.0))
+    solid = samples.box((20.0, 20.0, 10.0))
     plain = Infill(solid, LatticeSpec(strut_radius=0.6, shell=1.5, network=network)).part
     assert measure(as_read(plain.mesh)).bodies == 1
     cells = volfrep.fill(solid, cell="Kelvin", cell_size=10, strut_radius=0.6, shell=1.5)

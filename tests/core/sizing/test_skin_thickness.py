@@ -56,7 +56,7 @@ def tube(size, load, *, bounds, patch, shell=1.5, cell=10.0, radius=0.25, accele
 def test_a_skin_that_is_varied_is_the_skin_that_is_not():
     """With the thickness that the model was made with: the same stiffness and mass."""
     model, problem, first = tube(
-        (40.0, 20.0, 20.0), lambda region: Force(region, (0, 0, -500.0)), bounds=(0.5, 4.0),
+        (20.0, 10.0, 10.0), lambda region: Force(region, (0, 0, -500.0)), bounds=(0.5, 4.0),
         patch=10.0, acceleration=(1e7, 2e7, 0.0),
     )  # fmt: skip
     limits = Limits(frequency=100.0)
@@ -70,7 +70,7 @@ def test_a_skin_that_is_varied_is_the_skin_that_is_not():
 
 def test_its_derivatives_are_those_of_differences():
     _, problem, first = tube(
-        (40.0, 20.0, 20.0), lambda region: Force(region, (0, 50.0, -500.0)), bounds=(0.5, 4.0),
+        (20.0, 10.0, 10.0), lambda region: Force(region, (0, 50.0, -500.0)), bounds=(0.5, 4.0),
         patch=10.0, acceleration=(1e7, 2e7, 0.0),
     )  # fmt: skip
     place = np.clip(first * (1.0 + 0.1 * np.sin(np.arange(len(first)))), problem.low, problem.high)

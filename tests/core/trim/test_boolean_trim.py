@@ -151,7 +151,7 @@ def test_the_trimmed_lattice_has_the_genus_of_a_boolean_by_others():
     domain = samples.sphere(18.0)
     ours = quality.measure(mesh_of(trimmed(domain, "Octahedron", cavity=False)))
     everything = trimmed(
-        samples.box((60.0, 60.0, 60.0), (-30.0, -30.0, -30.0)), "Octahedron", cavity=False
+        samples.box((40.0, 40.0, 40.0), (-20.0, -20.0, -20.0)), "Octahedron", cavity=False
     )
     block = mesh_of(everything)
     solid = manifold3d.Manifold(

@@ -12,12 +12,13 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtCore
+from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import new_infill
 from driving import (
     PATIENCE,
+    Watch,
     check,
     choose_in_context_menu,
     click,
@@ -28,6 +29,7 @@ from driving import (
     panel,
     picture,
     run_checks,
+    said,
     section_docks,
     select,
     settle,
@@ -43,7 +45,7 @@ FOLDER = Path(tempfile.mkdtemp(prefix="volfrep-"))
 ELSEWHERE = """
 import os
 import FreeCAD as App
-from PySide import QtCore
+from PySide import QtCore, QtGui
 def main():
     doc = App.openDocument({path!r})
     obj = doc.LatticeInfill
@@ -135,6 +137,80 @@ def open_sections(obj):
     one_opens("by the context menu elsewhere")
 
 
+def answer_of(text):
+    """Really click a command in the menu; what comes of it, in words, which is then closed."""
+    doc, boxes = App.ActiveDocument, []
+    state = lambda: (  # noqa: E731
+        doc and (len(doc.Objects), doc.UndoCount), len(said()),
+        Gui.activeDocument() and Gui.activeDocument().activeView().getSceneGraph().getNumChildren(),
+    )  # fmt: skip
+
+    def look():
+        box = QtGui.QApplication.activeModalWidget()
+        if box is not None and box.isVisible():
+            boxes.append(f"box: {box.windowTitle()}")
+            box.reject()
+        return False
+
+    before, watch = state(), Watch(look, f"a box of {text}")
+    click_menu("VOLFREP", text)
+    watch.stop()
+    main = Gui.getMainWindow()
+    found = boxes
+    if Gui.Control.activeDialog():
+        found.append("panel")
+        picture(f"menu_{text.replace(' ', '_').lower()}")
+        buttons = [b for b in main.findChildren(QtGui.QPushButton) if b.isVisible()]
+        texts = [b.text().replace("&", "") for b in buttons]
+        click(buttons[texts.index("Cancel" if "Cancel" in texts else "Close")])
+        wait_until(lambda: not Gui.Control.activeDialog())
+    for window in main.findChildren(QtGui.QDialog) + main.findChildren(QtGui.QDockWidget):
+        if window.objectName().startswith("Volfrep") and window.isVisible():
+            found.append(f"window: {window.windowTitle()}")
+            picture(f"menu_{text.replace(' ', '_').lower()}")
+            window.close()
+    settle()
+    if not found and state() != before:
+        found.append("result")
+    return ", ".join(found)
+
+
+@slow
+def click_every_entry_of_the_menu(obj):
+    """With a lattice selected, and with nothing: a box, a panel, a result, or why it is greyed."""
+    from freecad_volfrep.gui.commands.table import COMMANDS, EXAMPLES
+
+    doc, table = obj.Document, {}
+    for name, command in COMMANDS.items():
+        if name in EXAMPLES:
+            continue
+        for given in ("a lattice", "nothing"):
+            App.setActiveDocument(doc.Name)
+            select(*([obj] if given == "a lattice" else []))
+            told = len(said())
+            (entry,) = Gui.Command.get(name).getAction()
+            if entry.isEnabled():
+                seen = answer_of(command.text)
+            else:
+                seen = f"greyed: {entry.statusTip().rpartition(chr(0x2192))[2].strip()}"
+            table[f"{command.text}, with {given}"] = seen
+            print(f"{command.text} | {given} | {seen}", file=sys.__stdout__, flush=True)
+            check(f"{command.text} answers with {given} selected", seen not in ("", "greyed: "))
+            check("nothing is raised", "Traceback" not in said()[told:], said()[told:][-500:])
+            if not is_alive(obj):
+                check(f"{command.text} leaves the lattice", False)
+                return
+    figures["every entry of the menu"] = table
+
+
+def is_alive(obj):
+    """Whether an object is still in its document."""
+    try:
+        return bool(obj.Name)
+    except ReferenceError:
+        return False
+
+
 @slow
 def revive_what_windows_have_saved(obj):
     """A FreeCAD without the workbench saves it, with windows: it lives here again."""
@@ -199,6 +275,7 @@ run_checks(
     {
         every_command_can_be_reached: None,
         open_sections: filled,
+        click_every_entry_of_the_menu: filled,
         revive_what_windows_have_saved: filled,
         revive_what_no_window_has_saved: filled,
     },

@@ -81,7 +81,8 @@ def edit_infill(obj: App.DocumentObject) -> None:
 
 def update_infill(obj: App.DocumentObject) -> None:
     """Compute now, AutoUpdate or not; the mesh comes while the user goes on."""
-    begin_update(obj)
+    if begin_update(obj) is None and obj.isValid():
+        tell(translate("VolfrepCommands", "{label} is up to date").format(label=obj.Label))
 
 
 def open_faces(selected: tuple[App.DocumentObject, Any]) -> None:

@@ -2165,6 +2165,10 @@
       <translation>{file}: {estimate}. Schreiben?</translation>
     </message>
     <message>
+      <source>{label} is up to date</source>
+      <translation>{label} ist aktuell</translation>
+    </message>
+    <message>
       <source>{label}: preview off</source>
       <translation>{label}: Vorschau aus</translation>
     </message>

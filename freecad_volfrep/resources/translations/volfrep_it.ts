@@ -2165,6 +2165,10 @@
       <translation>{file}: {estimate}. Scriverlo?</translation>
     </message>
     <message>
+      <source>{label} is up to date</source>
+      <translation>{label} è aggiornato</translation>
+    </message>
+    <message>
       <source>{label}: preview off</source>
       <translation>{label}: anteprima tolta</translation>
     </message>

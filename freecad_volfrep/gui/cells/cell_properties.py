@@ -25,7 +25,7 @@ _SETTLED = 150
 _FIELDS = {
     "CellSize": QT_TRANSLATE_NOOP("VolfrepCells", "Cell size L"),
     "StrutRadius": QT_TRANSLATE_NOOP("VolfrepCells", "Strut radius r"),
-    "WallThickness": QT_TRANSLATE_NOOP("VolfrepCells", "Wall thickness"),
+    "WallThickness": QT_TRANSLATE_NOOP("VolfrepCells", "Sheet thickness"),
 }
 #: What is said in place of figures that are not known at once, by what says how thick it is.
 _UNKNOWN = {
@@ -33,7 +33,7 @@ _UNKNOWN = {
         "VolfrepCells", "This cell with this radius is not in the catalogue: press Compute."
     ),
     "WallThickness": QT_TRANSLATE_NOOP(
-        "VolfrepCells", "What these walls do takes some seconds: press Compute."
+        "VolfrepCells", "The properties of this TPMS take some seconds: press Compute."
     ),
 }
 

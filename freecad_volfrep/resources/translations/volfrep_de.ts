@@ -1883,6 +1883,10 @@
       <translation>Einheitszelle setzen</translation>
     </message>
     <message>
+      <source>Sheet thickness</source>
+      <translation>Wanddicke</translation>
+    </message>
+    <message>
       <source>Strut radius r</source>
       <translation>Strebenradius r</translation>
     </message>
@@ -1891,20 +1895,16 @@
       <translation>Streben</translation>
     </message>
     <message>
+      <source>The properties of this TPMS take some seconds: press Compute.</source>
+      <translation>Die Eigenschaften dieser TPMS brauchen einige Sekunden: Berechnen drücken.</translation>
+    </message>
+    <message>
       <source>This cell with this radius is not in the catalogue: press Compute.</source>
       <translation>Diese Zelle mit diesem Radius steht nicht im Katalog: Berechnen drücken.</translation>
     </message>
     <message>
       <source>Unit cell (*.json)</source>
       <translation>Einheitszelle (*.json)</translation>
-    </message>
-    <message>
-      <source>Wall thickness</source>
-      <translation>Wanddicke</translation>
-    </message>
-    <message>
-      <source>What these walls do takes some seconds: press Compute.</source>
-      <translation>Was diese Wände leisten, dauert einige Sekunden: Berechnen drücken.</translation>
     </message>
     <message>
       <source>Write the picked cell to a JSON file</source>

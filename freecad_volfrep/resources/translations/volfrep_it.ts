@@ -1883,6 +1883,10 @@
       <translation>Imposta cella unitaria</translation>
     </message>
     <message>
+      <source>Sheet thickness</source>
+      <translation>Spessore della parete</translation>
+    </message>
+    <message>
       <source>Strut radius r</source>
       <translation>Raggio aste r</translation>
     </message>
@@ -1891,20 +1895,16 @@
       <translation>Aste</translation>
     </message>
     <message>
+      <source>The properties of this TPMS take some seconds: press Compute.</source>
+      <translation>Le proprietà di questa TPMS richiedono alcuni secondi: premere Calcola.</translation>
+    </message>
+    <message>
       <source>This cell with this radius is not in the catalogue: press Compute.</source>
       <translation>Questa cella con questo raggio non è nel catalogo: premere Calcola.</translation>
     </message>
     <message>
       <source>Unit cell (*.json)</source>
       <translation>Cella unitaria (*.json)</translation>
-    </message>
-    <message>
-      <source>Wall thickness</source>
-      <translation>Spessore della parete</translation>
-    </message>
-    <message>
-      <source>What these walls do takes some seconds: press Compute.</source>
-      <translation>Ciò che fanno queste pareti richiede alcuni secondi: premere Calcola.</translation>
     </message>
     <message>
       <source>Write the picked cell to a JSON file</source>

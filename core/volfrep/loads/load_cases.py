@@ -4,12 +4,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from ..mechanics.materials import SolidMaterial
 from ..util.errors import VolfrepError
 from .regions import Region, Vector
 
+#: A cone's directions lie no farther apart than so, degrees; and so much of what is linear in the
+#: force may be missed between them.
+_RING, CONE_MISSES = 20.0, 0.04
 #: Along x, y and z; None where a support leaves an axis free.
 Displacement = tuple[float | None, float | None, float | None]
 
@@ -150,6 +155,48 @@ class LoadCases:
         twice = [name for k, name in enumerate(names) if name in names[:k]]
         if twice:
             raise VolfrepError(f"Two load cases have the name '{twice[0]}': rename one.")
+
+
+def cone_of(case: LoadCase, number: int, angle: float) -> tuple[LoadCase, ...]:
+    """A case for each of several directions of one of its forces, which may act in any of a cone.
+
+    What is linear in the force is by no more than `CONE_MISSES` larger between the directions.
+
+    Args:
+        case: whose force has the direction of the cone's axis.
+        number: of the force among its loads, from 0.
+        angle: between the axis and the cone, above 0 and up to 90 degrees.
+
+    Raises:
+        VolfrepError: the load is no force, or the angle makes no sense.
+    """
+    load = case.loads[number]
+    if not isinstance(load, Force):
+        raise VolfrepError(f"'{load.name}' is no force: only a force has a cone of directions.")
+    size = math.hypot(*load.force)
+    if not (math.isfinite(angle) and 0.0 < angle <= 90.0 and size > 0.0):
+        raise VolfrepError(
+            f"A cone of {angle:g} degrees about the force of '{load.name}' makes no sense: give an "
+            "angle above 0 and up to 90, and a force."
+        )
+    axis = np.array(load.force) / size
+    one = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
+    one /= np.linalg.norm(one)
+    two = np.cross(axis, one)
+    rings = math.ceil(angle / _RING)
+    # The outermost lie a little beyond the cone, so that planes between neighbours touch it.
+    last = math.atan2(math.sin(math.radians(angle)),
+                      math.cos(math.radians(angle)) * math.cos(math.pi / (6 * rings)))  # fmt: skip
+    found: list[LoadCase] = []
+    for ring in range(rings + 1):
+        off = last * ring / rings
+        for turn in np.arange(max(6 * ring, 1)) * (math.tau / max(6 * ring, 1)):
+            aside = math.cos(turn) * one + math.sin(turn) * two
+            x, y, z = (size * (math.cos(off) * axis + math.sin(off) * aside)).tolist()
+            way = (x, y, z) if ring else load.force
+            loads = (*case.loads[:number], replace(load, force=way), *case.loads[number + 1 :])
+            found.append(replace(case, name=f"{case.name}, way {len(found) + 1}", loads=loads))
+    return tuple(found)
 
 
 def _check(name: str, vector: Vector) -> None:

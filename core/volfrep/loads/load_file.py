@@ -22,7 +22,16 @@ from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
 from ..util.reading import read_toml
 from ..util.types import Ints
-from .load_cases import Force, Load, LoadCase, LoadCases, Moment, Pressure, Support
+from .load_cases import (
+    Force,
+    Load,
+    LoadCase,
+    LoadCases,
+    Moment,
+    Pressure,
+    Support,
+    cone_of,
+)
 from .regions import (
     AllOf,
     AnyOf,
@@ -62,7 +71,7 @@ _MAKERS: dict[str, Callable[..., Region]] = {
 _OPTIONAL = {"length"}
 _LOADS = ("force", "moment", "pressure")
 _SUPPORT = ("name", *_REGION, "fixed", "x", "y", "z")
-_LOAD = ("name", *_REGION, *_LOADS, "at")
+_LOAD = ("name", *_REGION, *_LOADS, "at", "cone")
 _CASE = ("name", "acceleration", "support", "load")
 _FILE = ("material", "yield_stress", "support", "case")
 
@@ -126,7 +135,9 @@ class _Reader:
         tables = _tables(entries, "case", where)
         if not tables:
             raise VolfrepError("the file: it has no load case: begin one with [[case]].")
-        cases = [self._case(table, common, k) for k, table in enumerate(tables, 1)]
+        cases = [
+            case for k, table in enumerate(tables, 1) for case in self._cases(table, common, k)
+        ]
         with _at("the file"):
             return LoadCases(material, tuple(cases))
 
@@ -150,7 +161,10 @@ class _Reader:
                 material = replace(material, yield_stress=limit)
         return material
 
-    def _case(self, table: Mapping[str, Any], common: tuple[Support, ...], k: int) -> LoadCase:
+    def _cases(
+        self, table: Mapping[str, Any], common: tuple[Support, ...], k: int
+    ) -> tuple[LoadCase, ...]:
+        """A case, or those of the cone that one of its forces may act in."""
         name = table.get("name", f"case {k}")
         if not isinstance(name, str) or not name.strip():
             raise VolfrepError(f"case {k}, name: {name!r} is no text.")
@@ -164,8 +178,19 @@ class _Reader:
         if "acceleration" in table:
             pull = _vector(table["acceleration"], "acceleration", f"{where}, acceleration")
         own = self._supports(table, where)
+        cones = [
+            (j, load["cone"]) for j, load in enumerate(_tables(table, "load", where))
+            if "cone" in load
+        ]  # fmt: skip
+        if len(cones) > 1:
+            raise VolfrepError(f"{where}: {len(cones)} loads have a cone: give it to one.")
         with _at(where):
-            return LoadCase(name, common + own, loads, pull)
+            case = LoadCase(name, common + own, loads, pull)
+            for j, angle in cones:
+                if isinstance(angle, bool) or not isinstance(angle, (int, float)):
+                    raise VolfrepError(f"{where}, cone: {angle!r} is no number of degrees.")
+                return cone_of(case, j, float(angle))
+            return (case,)
 
     def _supports(self, table: Mapping[str, Any], where: str) -> tuple[Support, ...]:
         return tuple(

@@ -8,8 +8,17 @@ import pytest
 import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.optimize import linprog
 
-from volfrep.loads.load_cases import Force, LoadCase, Moment, Pressure, Support
+from volfrep.loads.load_cases import (
+    CONE_MISSES,
+    Force,
+    LoadCase,
+    Moment,
+    Pressure,
+    Support,
+    cone_of,
+)
 from volfrep.loads.load_file import read_load_cases
 from volfrep.loads.nodal_loads import (
     Body,
@@ -437,3 +446,54 @@ def test_the_example_of_the_documentation_is_read_as_it_stands(tmp_path):
     blocks = [block.split("```")[0] for block in text.split("```toml\n")[1:]]
     assert blocks
     assert read(blocks[0], tmp_path, box((178.0, 62.0, 108.0), 4.0)).cases
+
+
+@pytest.mark.parametrize(("angle", "count"), [(5.0, 7), (20.0, 7), (35.0, 19), (90.0, 91)])
+def test_directions_of_a_cone_bear_all_between_them(angle, count):
+    """Any force in the cone is a sum of some of them whose shares make hardly more than one."""
+    force = (3.0, -4.0, 12.0)
+    held = Support(InPlane((0, 0, 0), (1, 0, 0)))
+    other = Pressure(InPlane((0, 0, 0), (0, 0, 1)), 1.0)
+    case = LoadCase("rope", (held,), (other, Force(InPlane((1, 0, 0), (1, 0, 0)), force)))
+    cases = cone_of(case, 1, angle)
+    assert len(cases) == count
+    assert cases[0].loads == case.loads
+    assert len({one.name for one in cases}) == count
+    assert all(one.loads[0] == other for one in cases)
+    ways = np.array([one.loads[1].force for one in cases]) / 13.0
+    axis = np.array(force) / 13.0
+    assert np.linalg.norm(ways, axis=1) == pytest.approx(np.ones(count))
+    off = np.degrees(np.arccos(np.clip(ways @ axis, -1.0, 1.0)))
+    assert angle - 1e-6 < off.max() < 1.16 * angle
+    random = np.random.default_rng(1)
+    for _ in range(40):
+        aside = np.cross(axis, random.normal(size=3))
+        turn = np.radians(angle) * random.random() ** 0.5
+        way = np.cos(turn) * axis + np.sin(turn) * aside / np.linalg.norm(aside)
+        shares = linprog(np.ones(count), A_eq=ways.T, b_eq=way)
+        assert shares.fun < 1.0 + CONE_MISSES
+
+
+def test_a_cone_in_a_file_is_a_case_for_each_direction(tmp_path):
+    text = """
+        material = "PA12"
+        [[support]]
+        plane = { point = [0, 0, 0], normal = [1, 0, 0] }
+        fixed = true
+        [[case]]
+        name = "rope"
+        [[case.load]]
+        plane = { point = [9, 0, 0], normal = [1, 0, 0] }
+    """
+    path = tmp_path / "loads.toml"
+    path.write_text(text + "force = [0, 0, 10]\ncone = 30\n")
+    names = [case.name for case in read_load_cases(path).cases]
+    assert (len(names), names[0], names[-1]) == (19, "rope, way 1", "rope, way 19")
+    for wrong, told in (
+        ("force = [0, 0, 10]\ncone = 100", "up to 90"),
+        ("moment = [0, 0, 10]\ncone = 10", "no force"),
+        ('force = [0, 0, 10]\ncone = "x"', "no number of degrees"),
+    ):
+        path.write_text(text + wrong)
+        with pytest.raises(VolfrepError, match=told):
+            read_load_cases(path)

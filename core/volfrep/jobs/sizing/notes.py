@@ -120,8 +120,7 @@ def small_dimples(model: SizingModel, limits: Limits) -> list[str]:
     edge = float(np.sqrt(2.0 * np.median(model.skin.shells.area)))
     return [
         "Struts and skin were kept from buckling, alone and together: of the skin between struts "
-        f"dimples of {4.0 * edge:.2g} mm and more, by up to a sixth too late; smaller ones were "
-        "not looked at."
+        f"dimples of {4.0 * edge:.2g} mm and more; smaller ones were not looked at."
     ]
 
 

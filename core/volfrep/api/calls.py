@@ -655,7 +655,7 @@ def slicer_infill(
         elif isinstance(values, (tuple, list)):
             parameters["field"] = field_of("field", values, None, 1.0)
         if sized is not None:
-            spec = sized if isinstance(sized, LatticeSpec) else read_spec(sized)
+            spec = read_spec(sized) if isinstance(sized, (str, os.PathLike)) else sized
             parameters["field"], parameters["curve"] = sized_densities(spec)
             parameters["grading"] = "field"
         density = LatticeSpec.density if material is None else find_material(material).density

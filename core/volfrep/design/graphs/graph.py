@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -226,3 +226,29 @@ def make_network(
         points[used], rows.reshape(-1, 2), thick[first] if len(thick) else thick, source,
         widths=wide[first] if len(wide) else wide,
     )  # fmt: skip
+
+
+def with_density_by(
+    network: object, density: PointField | SampledField | None
+) -> dict[str, Any] | None:
+    """The keywords by which a graph's random points follow a density.
+
+    Args:
+        network: a kind's name, a random graph, or any other value of the keyword.
+        density: how densely they lie; None: evenly.
+
+    Returns:
+        None for a lattice without random points.
+    """
+    if isinstance(network, str) and network in KINDS:
+        return {} if density is None else {"network_density": density}
+    if not isinstance(network, RandomGraph):
+        return None
+    if density is None:
+        return {}
+    return {"network": replace(network, density=straight(*density.range), field=density)}
+
+
+def straight(low: float, high: float) -> str:
+    """The formula of s that goes from one value to another."""
+    return f"{low!r} + {high - low!r} * s"

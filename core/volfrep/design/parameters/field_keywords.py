@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -15,8 +14,7 @@ from ...util.types import Floats
 from ..cell_sizes import SAMPLES, cells_by, points_by
 from ..field_files import TABLE_SUFFIXES, VTK_SUFFIXES
 from ..grading import Field, RadiusGrading
-from ..graphs import RandomGraph
-from ..graphs.graph import KINDS
+from ..graphs.graph import straight, with_density_by
 from ..profile import Profile
 from ..sampled_field import SAMPLES_ALONG_CELL, sample_function
 from ..scattered_field import PointField
@@ -121,7 +119,7 @@ def with_fields(
             raise VolfrepError(
                 f"'network_density' is {low:g} somewhere: points cannot be less than none."
             )
-        result["network_density"] = _straight(low, high) if high > low else ""
+        result["network_density"] = straight(low, high) if high > low else ""
         result["network_field"] = fields["network_density"] if high > low else None
     return result
 
@@ -140,17 +138,10 @@ def with_cell_size(given: Mapping[str, Any], bounds: Floats | None) -> dict[str,
     spacing = float(np.ptp(bounds, axis=0).max()) / SAMPLES
     field = field_of("cell_size", size, bounds, SAMPLES_ALONG_CELL * spacing)
     result = dict(given)
-    if network in KINDS or isinstance(network, RandomGraph):
+    if with_density_by(network, None) is not None:
         _only(given, "network_density", "network_field")
         density, result["cell_size"] = points_by(field, bounds)
-        if isinstance(network, RandomGraph) and density is not None:
-            low, high = density.range
-            result["network"] = dataclasses.replace(
-                network, density=_straight(low, high), field=density
-            )
-        elif density is not None:
-            result["network_density"] = density
-        return result
+        return {**result, **(with_density_by(network, density) or {})}
     _only(given, "size_grading")
     grading, result["cell_size"] = cells_by(field, bounds)
     if grading is not None:
@@ -171,11 +162,6 @@ def _needs_part(name: str) -> str:
         f"'{name}' is a function of places in a part: give it to 'fill', 'size', 'block' or "
         "'mesh_network', which know the part."
     )
-
-
-def _straight(low: float, high: float) -> str:
-    """The formula of s that goes from one value to another."""
-    return f"{low!r} + {high - low!r} * s"
 
 
 def radius_by(name: str, field: Field) -> tuple[RadiusGrading | None, float]:

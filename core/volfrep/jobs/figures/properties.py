@@ -76,20 +76,11 @@ def lattice_properties(
         given = any_cell(given, cell_values, wall_formula)
     elif cell_values:
         raise VolfrepError("Values are for a cell that is given by its name or file.")
-    if as_printed is not None:
-        from ...design.as_printed import find_printed_table
-        from ..as_printed import printed_radius
-
-        if strut_radius is None or not isinstance(cell, UnitCell):
-            raise VolfrepError("What comes out is known of struts: give their radius as drawn.")
-        table = find_printed_table(as_printed)
-        strut_radius, said = printed_radius(cell, cell_size, strut_radius, table, build_direction)
-        note(said)
     kinds = (SolidMaterial, type(None))
     solid = find_material(material) if isinstance(material, str) else material
     check_kind("material", solid, kinds, "a material's name or file")
     wish = EndlessWish(
         strut_radius, relative_density, fillet, solid, along, cell_values, wall_kind,
-        wall_thickness, wall_offset, wall_formula, exact, told,
+        wall_thickness, wall_offset, wall_formula, exact, told, as_printed, build_direction, note,
     )  # fmt: skip
     return kind_of_cell(given).properties(given, Grid(cell_size).size, wish)

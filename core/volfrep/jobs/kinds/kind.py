@@ -58,6 +58,10 @@ class RadiiBorne(NamedTuple):
     own: float = 0.0
 
 
+#: Said where what the printer adds is asked for of a lattice that does not tell it.
+UNDRAWN = "What comes out is known of struts: give their radius as drawn."
+
+
 class Expected(NamedTuple):
     """What a design will come to, about.
 
@@ -88,6 +92,9 @@ class EndlessWish:
     wall_formula: str
     exact: bool
     told: Callable[[float], None]
+    as_printed: str | None
+    build_direction: tuple[float, float, float]
+    note: Callable[[str], None]
 
     @property
     def given(self) -> list[str]:

@@ -19,7 +19,7 @@ from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
 from ...util.numbers import number
 from ...util.types import Floats
-from .kind import EndlessWish, Expected, LatticeKind
+from .kind import UNDRAWN, EndlessWish, Expected, LatticeKind
 
 if TYPE_CHECKING:
     from ...mechanics.summary import CellProperties
@@ -153,6 +153,15 @@ class StrutCellKind(LatticeKind):
         of_walls = wish.wall_kind or wish.wall_formula
         if wish.given not in (["strut radius"], ["relative density"]) or of_walls:
             raise VolfrepError("Of struts give either a strut radius or a relative density.")
+        if wish.as_printed is not None:
+            from ...design.as_printed import find_printed_table
+            from ..as_printed import printed_radius
+
+            if radius is None:
+                raise VolfrepError(UNDRAWN)
+            table = find_printed_table(wish.as_printed)
+            radius, said = printed_radius(cell, cell_size, radius, table, wish.build_direction)
+            wish.note(said)
         if not (wish.exact or wish.fillet or wish.along):
             listed, near = known_cell(cell), radius
             if wish.relative_density is not None and listed is not None:

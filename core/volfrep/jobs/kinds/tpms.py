@@ -48,7 +48,7 @@ from ..tpms.octants import (
     tpms_of,
 )
 from ..tpms.stiffness import solve_tpms_stiffness, tpms_modulus
-from .kind import EndlessWish, LatticeKind
+from .kind import UNDRAWN, EndlessWish, LatticeKind
 from .octant_block import LaidBlock, OctantBlock
 from .octant_lattice import OctantLattice
 
@@ -112,6 +112,8 @@ class TpmsKind(LatticeKind):
         """Homogenised."""
         from ..tpms.properties import tpms_properties
 
+        if wish.as_printed is not None:
+            raise VolfrepError(UNDRAWN)
         if wish.cell_values:
             raise VolfrepError(
                 "Surfaces have no values of their own: they are for cells of struts."

@@ -132,7 +132,7 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         own = case["frame_buckling_factor"]
         if own is not None:
             found = "" if factors[k] is None else f", {factors[k]:.3g} in CalculiX"
-            text = f"all together buckles at {own:.3g} times the load{found}"
+            text = f"the whole buckles at {own:.3g} times the load{found}"
             rows.append((f"case {case['name']}", text))
     rows += [
         (

@@ -143,7 +143,7 @@ def test_with_a_skin_the_struts_end_in_it_and_both_are_told(
     assert done == 0
     told, warned = capsys.readouterr()
     assert "dimples of" in warned
-    assert "all together buckles at" in told
+    assert "the whole buckles at" in told
     assert "skin mass" in told
     assert "as stiff as one radius" in told
     figures = json.loads(report.read_text(encoding="utf-8"))

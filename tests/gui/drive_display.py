@@ -310,6 +310,18 @@ def bar_length(image):
     return float(max(map(sum, black)) * np.linalg.norm(b - a) / 1000)
 
 
+def said_length():
+    """What the scale bar of the view says, mm."""
+    from pivy import coin
+
+    from freecad_volfrep.gui.draw.coloured_struts import scale_bar
+
+    search = coin.SoSearchAction()
+    search.setType(coin.SoText2.getClassTypeId())
+    search.apply(scale_bar(Gui.activeDocument().activeView()))
+    return float(str(search.getPath().getTail().string[0]).split()[0])
+
+
 def colourful(name):
     """Share of the 3D view's middle, in a picture, that has the scale's yellow or green."""
     _, green, blue = np.moveaxis(seen(name, view_3d()).astype(int), 2, 0)
@@ -385,7 +397,8 @@ def colours(obj):
     dark = [image.pixelColor(x, y).lightness() < 60 for x in range(0, image.width() // 4, 2)
             for y in range(image.height() // 4, image.height() * 3 // 4, 2)]  # fmt: skip
     check("with letters in black", sum(dark) > 20, sum(dark))
-    check("a scale bar is as long as it says", 9.0 < bar_length(image) < 11.0, bar_length(image))
+    said, there = said_length(), bar_length(image)
+    check("a scale bar is as long as it says", abs(there / said - 1.0) < 0.1, f"{said}: {there}")
     check("of a constant the legend tells one number", [numbers_of(legend("A", *ends)) for ends in
           ((0.0, 2.0), (1.0, 1.0))] == [5, 1])  # fmt: skip
     dock.close()

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..util.errors import VolfrepError
-from ..util.linalg import along
+from ..util.linalg import along, symmetric_eigen
 from ..util.numbers import number
 from ..util.types import Floats
 from .grading import Field, SizeGrading
@@ -127,15 +127,28 @@ def _directions(field: Field, points: Floats, sizes: Floats) -> list[Floats]:
     """Unit vectors along which a field may vary: the axes, and where it is steepest in all."""
     if isinstance(field, SampledField):
         slopes = np.stack(np.gradient(field.values, *field.spacing), axis=-1).reshape(-1, 3)
-        steepest = np.linalg.eigh(slopes.T @ slopes)[1][:, -1]
     else:
-        middle = points - points.mean(axis=0)
-        steepest = np.linalg.lstsq(middle, sizes - sizes.mean(), rcond=None)[0]
+        slopes = _slope(points - points.mean(axis=0), sizes - sizes.mean())[None]
+    steepest = symmetric_eigen(_squares(slopes))[1][0, :, -1] if slopes.any() else np.zeros(3)
     length = float(np.linalg.norm(steepest))
     axes = list(np.eye(3))
     if length == 0.0 or np.abs(steepest).max() > (1.0 - 1e-6) * length:
         return axes
     return [*axes, steepest * np.sign(steepest[np.abs(steepest).argmax()]) / length]
+
+
+def _squares(rows: Floats) -> Floats:
+    """(1, 3, 3) the sum of the squares of (n, 3) rows."""
+    return np.asarray(np.einsum("ni,nj->ij", rows, rows)[None])
+
+
+def _slope(places: Floats, values: Floats) -> Floats:
+    """(3,) the slope of the plane that is nearest to values at places, both less their means."""
+    squares, ways = symmetric_eigen(_squares(places))
+    pulls = np.einsum("nj,jk,n->k", places, ways[0], values)
+    known = squares[0] > 1e-12 * squares[0, -1]
+    shares = np.divide(pulls, squares[0], out=np.zeros(3), where=known)
+    return np.asarray(np.einsum("jk,k->j", ways[0], shares))
 
 
 class _Along(NamedTuple):

@@ -130,7 +130,7 @@ def save_picture(view: Any, path: str) -> None:
     """
     from pivy import coin
 
-    scene, bar = view.getSceneGraph(), _scale_bar(view)
+    scene, bar = view.getSceneGraph(), scale_bar(view)
     if bar is not None:
         scene.addChild(bar)
     search = coin.SoSearchAction()
@@ -150,7 +150,7 @@ def save_picture(view: Any, path: str) -> None:
             scene.removeChild(bar)
 
 
-def _scale_bar(view: Any) -> Any:
+def scale_bar(view: Any) -> Any:
     """A line of a round length in mm, which it tells; None in perspective."""
     from pivy import coin
 

@@ -54,13 +54,14 @@ def selected_solids() -> list[App.DocumentObject]:
 def only_solid() -> list[App.DocumentObject]:
     """The one solid that is shown, where nothing is selected and there is no other; else none."""
     from freecad_volfrep.bridge.solids import is_fillable, resolve_base
-    from freecad_volfrep.features import LatticeInfill
+    from freecad_volfrep.features import LatticeInfill, PrintCheck, SlicerInfill
 
     if App.ActiveDocument is None or Gui.Selection.getSelection():
         return []
     found: dict[App.DocumentObject, None] = {}
     for obj in App.ActiveDocument.Objects:
-        is_ours = isinstance(getattr(obj, "Proxy", None), LatticeInfill)
+        proxy = getattr(obj, "Proxy", None)
+        is_ours = isinstance(proxy, (LatticeInfill, PrintCheck, SlicerInfill))
         if obj.Visibility and not is_ours and is_fillable(obj):
             found[resolve_base(obj)] = None
             if len(found) > 1:

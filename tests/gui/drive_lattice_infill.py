@@ -491,6 +491,10 @@ def check_the_print(doc, obj):
     picture("5_print_check")
     check("red is seen from below", red_share("5_print_check") > 0.02, red_share("5_print_check"))
     look_at_all()
+    Gui.Selection.clearSelection()
+    from freecad_volfrep.gui.selection import only_solid
+
+    check("its mesh is no solid to fill", made not in only_solid())
     doc.removeObject(made.Name)
 
 

@@ -228,25 +228,16 @@ def make_network(
     )  # fmt: skip
 
 
-def with_density_by(
-    network: object, density: PointField | SampledField | None
-) -> dict[str, Any] | None:
-    """The keywords by which a graph's random points follow a density.
+def is_random(network: object) -> bool:
+    """Whether a value of the keyword ``network`` stands for random points."""
+    return isinstance(network, RandomGraph) or (isinstance(network, str) and network in KINDS)
 
-    Args:
-        network: a kind's name, a random graph, or any other value of the keyword.
-        density: how densely they lie; None: evenly.
 
-    Returns:
-        None for a lattice without random points.
-    """
-    if isinstance(network, str) and network in KINDS:
-        return {} if density is None else {"network_density": density}
-    if not isinstance(network, RandomGraph):
-        return None
-    if density is None:
-        return {}
-    return {"network": replace(network, density=straight(*density.range), field=density)}
+def with_density_by(network: object, density: PointField | SampledField) -> dict[str, Any]:
+    """The keywords by which random points, as of `is_random`, follow a density."""
+    if isinstance(network, RandomGraph):
+        return {"network": replace(network, density=straight(*density.range), field=density)}
+    return {"network_density": density}
 
 
 def straight(low: float, high: float) -> str:

@@ -14,7 +14,7 @@ from ...util.types import Floats
 from ..cell_sizes import SAMPLES, cells_by, points_by
 from ..field_files import TABLE_SUFFIXES, VTK_SUFFIXES
 from ..grading import Field, RadiusGrading
-from ..graphs.graph import straight, with_density_by
+from ..graphs.graph import is_random, straight, with_density_by
 from ..profile import Profile
 from ..sampled_field import SAMPLES_ALONG_CELL, sample_function
 from ..scattered_field import PointField
@@ -138,10 +138,10 @@ def with_cell_size(given: Mapping[str, Any], bounds: Floats | None) -> dict[str,
     spacing = float(np.ptp(bounds, axis=0).max()) / SAMPLES
     field = field_of("cell_size", size, bounds, SAMPLES_ALONG_CELL * spacing)
     result = dict(given)
-    if with_density_by(network, None) is not None:
+    if is_random(network):
         _only(given, "network_density", "network_field")
         density, result["cell_size"] = points_by(field, bounds)
-        return {**result, **(with_density_by(network, density) or {})}
+        return result if density is None else {**result, **with_density_by(network, density)}
     _only(given, "size_grading")
     grading, result["cell_size"] = cells_by(field, bounds)
     if grading is not None:

@@ -6,9 +6,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-import FreeCADGui as Gui
-
-from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.selection import selected_infill
 from freecad_volfrep.gui.undo import undo_step
@@ -16,6 +13,7 @@ from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
 from .cell_chart import CellChart
+from .cell_window import CellWindow, show_one
 
 if TYPE_CHECKING:
     from volfrep.mechanics.summary import CellProperties
@@ -41,14 +39,11 @@ HEADS = (
 )
 
 
-class CellFinder(QtWidgets.QDialog):
+class CellFinder(CellWindow):
     """Finds the library's cells that have a modulus or a density, each at its radius."""
 
     def __init__(self) -> None:
-        super().__init__(Gui.getMainWindow())
-        self.setObjectName("VolfrepCellFinder")
-        self.setWindowTitle(translate(_CONTEXT, "Find Cells"))
-        self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
+        super().__init__("VolfrepCellFinder", translate(_CONTEXT, "Find Cells"))
         self._found: list[CellProperties] = []
         self._timer = QtCore.QTimer(self)
         self._timer.setSingleShot(True)
@@ -58,33 +53,7 @@ class CellFinder(QtWidgets.QDialog):
         self._build()
         self._show_curves()
         self.search()
-        Gui.Selection.addObserver(self)
-
-    # FreeCAD's selection tells its observers by these names.
-    def addSelection(self, *_: Any) -> None:  # noqa: N802
-        """Something more is selected."""
-        self._enable()
-
-    def removeSelection(self, *_: Any) -> None:  # noqa: N802
-        """Something is selected no more."""
-        self._enable()
-
-    def setSelection(self, *_: Any) -> None:  # noqa: N802
-        """Something else is selected."""
-        self._enable()
-
-    def clearSelection(self, *_: Any) -> None:  # noqa: N802
-        """Nothing is selected."""
-        self._enable()
-
-    def done(self, result: int) -> None:
-        """Close, and hear no more of the selection."""
-        Gui.Selection.removeObserver(self)
-        super().done(result)
-
-    def closeEvent(self, event: Any) -> None:  # noqa: N802
-        """The window's own cross closes as the button does."""
-        self.done(0)
+        self.follow_selection()
 
     def search(self) -> None:
         """Find the cells that have what the fields say; says here what is wrong."""
@@ -206,9 +175,6 @@ class CellFinder(QtWidgets.QDialog):
             self._table.setColumnWidth(column, width)
         self._table.horizontalHeader().setStretchLastSection(True)
         self._table.currentCellChanged.connect(lambda row, *_: self._chart.choose(row))
-        self._note = QtWidgets.QLabel()
-        self._note.setObjectName("Note")
-        self._note.setWordWrap(True)
         self._apply = QtWidgets.QPushButton()
         self._apply.setObjectName("Apply")
         self._apply.setAutoDefault(False)
@@ -301,16 +267,7 @@ class CellFinder(QtWidgets.QDialog):
         self._chart.show_curves(curves, (translate(_CONTEXT, "relative density"), word))
 
     def _enable(self) -> None:
-        infill = selected_infill()
-        self._apply.setEnabled(infill is not None and bool(self._found))
-        text = translate("VolfrepCells", "Apply")
-        if infill is not None:
-            text = translate("VolfrepCells", "Apply to {label}").format(label=infill.Label)
-        self._apply.setText(text)
-
-    def _say(self, text: str, wrong: bool = False) -> None:
-        self._note.setStyleSheet(WRONG if wrong else "")
-        self._note.setText(text)
+        self._enable_apply(self._apply, bool(self._found))
 
 
 def _set_span(spin: Any, span: tuple[float, float], unit: float) -> None:
@@ -321,11 +278,5 @@ def _set_span(spin: Any, span: tuple[float, float], unit: float) -> None:
 
 def show_cell_finder() -> CellFinder:
     """Open the window, or bring the one that is open to the front."""
-    for window in Gui.getMainWindow().findChildren(QtWidgets.QDialog, "VolfrepCellFinder"):
-        if window.isVisible():
-            window.raise_()
-            window.activateWindow()
-            return window
-    window = CellFinder()
-    window.show()
+    window: CellFinder = show_one("VolfrepCellFinder", CellFinder)
     return window

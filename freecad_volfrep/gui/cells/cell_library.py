@@ -7,10 +7,8 @@ import html
 from pathlib import Path
 from typing import Any
 
-import FreeCADGui as Gui
-
 from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
-from freecad_volfrep.gui.messages import WRONG, file_name
+from freecad_volfrep.gui.messages import file_name
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.selection import selected_infill, selected_with_edges
 from freecad_volfrep.gui.undo import undo_step
@@ -23,6 +21,7 @@ from volfrep.util.errors import VolfrepError
 from .cell_entry import USES, Entry, entry_of
 from .cell_finder import show_cell_finder
 from .cell_properties import CellProperties
+from .cell_window import CellWindow, show_one
 
 #: Of the list's pictures and of the large one, px.
 SMALL, LARGE = 84, 220
@@ -33,22 +32,17 @@ FILTER = QT_TRANSLATE_NOOP("VolfrepCells", "Unit cell (*.json)")
 _ENTRY = QtCore.Qt.UserRole
 
 
-class CellLibrary(QtWidgets.QDialog):
+class CellLibrary(CellWindow):
     """Browse cells, load one, make one of what is drawn, save it, apply it."""
 
     def __init__(self) -> None:
-        super().__init__(Gui.getMainWindow())
-        self.setObjectName("VolfrepCellLibrary")
-        self.setWindowTitle(translate("VOLFREP_CellLibrary", "Cell Library"))
-        self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
+        super().__init__("VolfrepCellLibrary", translate("VOLFREP_CellLibrary", "Cell Library"))
         self._list = self._picker()
         self._use = self._chooser()
-        self._picture, self._figures, self._note = (QtWidgets.QLabel() for _ in range(3))
+        self._picture, self._figures = QtWidgets.QLabel(), QtWidgets.QLabel()
         self._does = CellProperties()
         self._picture.setFixedSize(LARGE, LARGE)
         self._figures.setObjectName("Figures")
-        self._note.setObjectName("Note")
-        self._note.setWordWrap(True)
         # Many sentences are scrolled: they would push the pictures under each other.
         self._notes = QtWidgets.QScrollArea()
         self._notes.setWidget(self._note)
@@ -100,33 +94,7 @@ class CellLibrary(QtWidgets.QDialog):
         self._list.currentItemChanged.connect(lambda *_: self._show())
         self._list.setCurrentRow(0)
         self._pick_that_of(selected_infill())
-        Gui.Selection.addObserver(self)
-
-    # FreeCAD's selection tells its observers by these names.
-    def addSelection(self, *_: Any) -> None:  # noqa: N802
-        """Something more is selected."""
-        self._enable()
-
-    def removeSelection(self, *_: Any) -> None:  # noqa: N802
-        """Something is selected no more."""
-        self._enable()
-
-    def setSelection(self, *_: Any) -> None:  # noqa: N802
-        """Something else is selected."""
-        self._enable()
-
-    def clearSelection(self, *_: Any) -> None:  # noqa: N802
-        """Nothing is selected."""
-        self._enable()
-
-    def done(self, result: int) -> None:
-        """Close, and hear no more of the selection."""
-        Gui.Selection.removeObserver(self)
-        super().done(result)
-
-    def closeEvent(self, event: Any) -> None:  # noqa: N802
-        """The window's own cross closes as the button does."""
-        self.done(0)
+        self.follow_selection()
 
     def load(self, path: str) -> None:
         """Add the cell of a JSON file and pick it; says here what is wrong with it."""
@@ -284,17 +252,8 @@ class CellLibrary(QtWidgets.QDialog):
         self._say("\n".join(entry.notes))
         self._enable()
 
-    def _say(self, text: str, wrong: bool = False) -> None:
-        self._note.setStyleSheet(WRONG if wrong else "")
-        self._note.setText(text)
-
     def _enable(self) -> None:
-        infill = selected_infill()
-        self._buttons["Apply"].setEnabled(infill is not None)
-        text = translate(_CONTEXT, "Apply")
-        if infill is not None:
-            text = translate(_CONTEXT, "Apply to {label}").format(label=infill.Label)
-        self._buttons["Apply"].setText(text)
+        self._enable_apply(self._buttons["Apply"])
         self._buttons["From Selection"].setEnabled(bool(selected_with_edges()))
         self._buttons["Save As..."].setEnabled(self._entry().has_file)
 
@@ -332,11 +291,5 @@ def cell_files() -> str:
 
 def show_cell_library() -> CellLibrary:
     """Open the window, or bring the one that is open to the front."""
-    for window in Gui.getMainWindow().findChildren(QtWidgets.QDialog, "VolfrepCellLibrary"):
-        if window.isVisible():
-            window.raise_()
-            window.activateWindow()
-            return window
-    window = CellLibrary()
-    window.show()
+    window: CellLibrary = show_one("VolfrepCellLibrary", CellLibrary)
     return window

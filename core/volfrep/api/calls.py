@@ -171,6 +171,8 @@ def size(
     prove: Literal["file"] | None = None,
     voxel: float | None = None,
     remove_thin: bool = False,
+    radius_list: Sequence[float] = (),
+    symmetry: str | None = None,
     unit: str | None = None,
     progress: ProgressCallback | bool | None = None,
     cache: StageCache | None = None,
@@ -188,6 +190,9 @@ def size(
             design and CalculiX: the report's entry ``file``.
         voxel: edge of its voxels, mm; None for what suits the part.
         remove_thin: take away struts that end as thin as allowed, and size the rest again.
+        radius_list: the radii that nodes may have, mm, in place of bounds; empty for any.
+        symmetry: planes under which radii and a sized skin are their own images, such as
+            "x=0, z=2.5"; None for none.
         unit: as of `fill`.
         progress: as of `fill`.
         cache: as of `fill`.
@@ -234,9 +239,10 @@ def size(
         solid, wanted = _asked(part, unit, told, spec, given, None)
         loads = _loads(loads, solid)
         wanted = dataclasses.replace(wanted, density=loads.material.density)
-        goal = dataclasses.replace(
-            goal_of(loads.material, asked, lambda name: name), remove_thin=remove_thin
-        )
+        goal = goal_of(
+            loads.material, asked, remove_thin=remove_thin, radius_list=radius_list,
+            symmetry=symmetry,
+        )  # fmt: skip
         made = size_struts(
             solid, wanted, loads, goal, most_steps=steps, prove_it=proof, progress=told,
             cache=cache,

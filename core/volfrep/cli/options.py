@@ -158,6 +158,8 @@ class SizeOptions(LatticeOptions):
         loads: file of load cases.
         goal: what is wanted, by its names in `jobs.sizing.GOALS`.
         remove_thin: take away the thinnest struts, and size again.
+        radius_list: the radii that may be, mm; empty for any.
+        symmetry: planes of symmetry; None for none.
         steps: of the search, at most.
         prove: whether CalculiX solves the final design.
         prove_file: whether the finished file is solved as a solid.
@@ -180,6 +182,8 @@ class SizeOptions(LatticeOptions):
     loads: str
     goal: Mapping[str, float | None]
     remove_thin: bool
+    radius_list: tuple[float, ...]
+    symmetry: str | None
     steps: int
     prove: bool
     prove_file: bool
@@ -270,6 +274,7 @@ def size_options(given: argparse.Namespace) -> SizeOptions:
         spec=found.spec, output=given.output, quiet=given.quiet, kept=None,
         part=given.part, unit=given.unit, form=form, loads=given.loads,
         goal={name: getattr(given, name) for name in GOALS}, remove_thin=given.remove_thin,
+        radius_list=given.radius_list, symmetry=given.symmetry,
         steps=given.steps, prove=not given.no_proof,
         prove_file=given.prove == "file", voxel=given.voxel, radii=given.radii,
         thickness=given.thickness, limits=_limits(given, form),

@@ -455,6 +455,15 @@ RUN_OPTIONS = (
         "remove-thin", ("size",),
         "take away struts that end as thin as allowed, and size the rest again", group=GOAL_GROUP,
     ),
+    RunOption(
+        "radius-list", ("size",), "the radii that nodes may have, in place of bounds", "MM,...",
+        GOAL_GROUP, numbers, (),
+    ),
+    RunOption(
+        "symmetry", ("size",),
+        "planes under which radii and a sized skin are their own images; loads need not be",
+        "x=MM,y=MM", GOAL_GROUP,
+    ),
     RunOption("steps", ("size",), "of the search, at most (default 60)", "N", GOAL_GROUP, int, 60),
     RunOption(
         "no-proof", ("size",), "do not let CalculiX solve the final design", group=GOAL_GROUP,

@@ -63,8 +63,11 @@ def _size(given: argparse.Namespace) -> int | None:
     loads = read_load_cases(options.loads, solid)
     if spec.density != loads.material.density:
         spec = replace(spec, density=loads.material.density)
-    goal = goal_of(loads.material, options.goal, lambda name: f"--{name.replace('_', '-')}")
-    goal = replace(goal, remove_thin=options.remove_thin)
+    goal = goal_of(
+        loads.material, options.goal, lambda name: f"--{name.replace('_', '-')}",
+        remove_thin=options.remove_thin, radius_list=options.radius_list,
+        symmetry=options.symmetry,
+    )  # fmt: skip
     cache = StageCache()
     start = time.perf_counter()
     with drawn(options.quiet) as progress:

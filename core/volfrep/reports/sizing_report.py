@@ -120,6 +120,12 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     ]
     if report["skin_mass_g"]:
         rows.append(("skin mass", f"{report['skin_mass_g']:.4g} g"))
+    if "radius_list" in report:
+        listed = report["radius_list"]
+        pairs = zip(listed["radii_mm"], listed["nodes"], strict=True)
+        text = ", ".join(f"{radius:g} mm ({nodes:,} nodes)" for radius, nodes in pairs)
+        cost = listed["volume_over_any_radii"] - 1.0
+        rows.append(("radius list", f"{text}; {cost:+.1%} of the mass with any radii"))
     proof = report["calculix"]
     there = (proof or {}).get("uses", {})
     for name, use in report["uses"].items():

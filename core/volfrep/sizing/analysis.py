@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -77,6 +77,8 @@ class Problem:
             has found more; None for as they say.
         skin: what of the variables is the skin's; None where it is not varied.
         around: the skin, varied or not, whose nodes are the structure's last ones; None for none.
+        groups: (n,) a number that radii have in common which are to be equal, as their bounds are;
+            None where each is its own.
     """
 
     structure: Structure
@@ -89,6 +91,7 @@ class Problem:
     felt: Floats | None = None
     skin: SkinThickness | None = None
     around: SkinModel | None = None
+    groups: Ints | None = None
 
     @property
     def skin_first(self) -> int:
@@ -113,7 +116,29 @@ class Problem:
         """The radii, evened out."""
         if self.smoother is None:
             return radii
-        return np.asarray(np.clip(self.smoother @ radii, self.low, self.high))
+        return self.most_alike(np.clip(self.smoother @ radii, self.low, self.high))
+
+    def most_alike(self, values: Floats) -> Floats:
+        """(n,) of those that are to be equal, the largest."""
+        if self.groups is None:
+            return values
+        most = np.full(int(self.groups.max()) + 1, -np.inf)
+        np.maximum.at(most, self.groups, values)
+        return np.asarray(most[self.groups])
+
+    def mean_alike(self, values: Floats) -> Floats:
+        """(n,) or (n, c) of those that are to be equal, the mean."""
+        if self.groups is None:
+            return values
+        total = np.zeros((int(self.groups.max()) + 1, *values.shape[1:]))
+        np.add.at(total, self.groups, values)
+        number = np.bincount(self.groups).reshape(-1, *[1] * (values.ndim - 1))
+        return np.asarray((total / number)[self.groups])
+
+    def alike(self, groups: Ints) -> Problem:
+        """The same, whose radii with the same number are equal, and so are their bounds."""
+        one = replace(self, groups=groups)
+        return replace(one, low=one.most_alike(self.low), high=-one.most_alike(-self.high))
 
 
 @dataclass(frozen=True, eq=False)

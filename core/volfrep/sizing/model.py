@@ -32,6 +32,7 @@ from .node_radii import NodeRadii, largest_radii
 from .skin import NO_FEET, Feet, SkinModel, ties_to
 from .skin_thickness import SkinThickness, control_points, shares_of, with_skin
 from .structure import NO_TIES, Structure
+from .symmetry import Mirrors
 from .tapered_beams import Elastic, beams_of, end_table
 from .union_volume import union_volume
 
@@ -40,6 +41,8 @@ _STEEPEST = 0.3
 #: A star of sections reaches farther than a disc of its second moment of area, and so holds the
 #: skin: by so much in skinned boxes of second-order tetrahedra.
 _STAR = 1.3
+#: Images of control points differ by rounding alone, mm.
+_IMAGES = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,6 +241,7 @@ def with_sized_skin(
     wanted: Callable[[Floats], Floats],
     bounds: tuple[float, float],
     patch: float,
+    mirrors: Mirrors | None = None,
 ) -> tuple[SizingModel, Floats]:
     """A structure whose skin is varied, too.
 
@@ -246,6 +250,7 @@ def with_sized_skin(
         wanted: thickness to begin with, mm, at (n, 3) points.
         bounds: the least thickness and the largest, mm.
         patch: how far apart the thickness is chosen, mm; inf for one everywhere.
+        mirrors: planes under which the thickness is its own image; None for none.
 
     Returns:
         The structure, and (p,) the roots of the thicknesses to begin with.
@@ -254,7 +259,9 @@ def with_sized_skin(
     assert skin is not None
     places = skin.middle[skin.shells.triangles].mean(axis=1)
     if np.isfinite(patch):
-        points = control_points(places, patch)
+        points = control_points(places if mirrors is None else mirrors.folded(places), patch)
+        if mirrors is not None:
+            points = mirrors.images(points, np.zeros(len(points)))[0]
         shares = shares_of(points, places, patch)
     else:
         points = places.mean(axis=0)[None]
@@ -271,9 +278,15 @@ def with_sized_skin(
     problem = replace(
         problem, structure=structure, radii=with_skin(problem.radii, varied), skin=varied,
         low=np.concatenate([problem.low, least]), high=np.concatenate([problem.high, most]),
-        smoother=smoother,
+        smoother=smoother, groups=None,
     )  # fmt: skip
-    return replace(model, problem=problem), first
+    nodes = model.problem.groups
+    if nodes is not None:
+        alike = np.arange(len(points))
+        if mirrors is not None and np.isfinite(patch):
+            alike = mirrors.groups(points, _IMAGES)[0]
+        problem = problem.alike(np.concatenate([nodes, nodes.max() + 1 + alike]))
+    return replace(model, problem=problem), problem.most_alike(whole)[len(whole) - len(first) :]
 
 
 def _hanging_together(frame: Wireframe, on_wall: Bools | None) -> Bools:

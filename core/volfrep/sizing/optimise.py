@@ -133,7 +133,7 @@ def stiffest(
             f"A volume of {volume:.4g} mm3 of struts cannot be reached with radii between "
             f"{low.min():.3g} and {high.max():.3g} mm, which make {least:.4g} to {most:.4g} mm3."
         )
-    radii = shape.scaled_to(start, volume, low, high)
+    radii = shape.scaled_to(problem.most_alike(start), volume, low, high)
     none = Limits()
     steps: list[Step] = []
     best: Analysis | None = None
@@ -159,8 +159,8 @@ def stiffest(
         if since >= _PATIENCE:
             stopped = "converged"
             break
-        gain = np.maximum(-(changes.compliance @ weights), 0.0)
-        cost = np.maximum(shape.volume_change(radii), 1e-9)
+        gain = np.maximum(-problem.mean_alike(changes.compliance @ weights), 0.0)
+        cost = np.maximum(problem.mean_alike(shape.volume_change(radii)), 1e-9)
         merit = gain / cost
         # Over a middle one: nodes that lie outside the domain, or nearly so, cost next to nothing.
         merit = np.clip(merit / max(float(np.median(merit)), 1e-300), *_MERITS)
@@ -199,7 +199,7 @@ def lightest(
     """
     if not limits.any:
         raise VolfrepError("Least mass needs a limit: stress, displacement, buckling, frequency.")
-    radii = np.clip(start, problem.low, problem.high)
+    radii = np.clip(problem.most_alike(start), problem.low, problem.high)
     everything, limits = limits, replace(limits, frame_buckling=None)
     if not limits.any:
         limits = everything
@@ -226,7 +226,7 @@ def lightest(
         if least_of_all or (since >= _PATIENCE and number >= _FEWEST):
             stopped = "converged"
             break
-        radii = problem.smoothed(_lighter(problem, found, changes, limits))
+        radii = problem.smoothed(next_radii(problem, found, changes, limits))
     best = best or [(0.0, radii, radii)]
     tried = [scaled_to_limits(problem, limits, chosen) for _, chosen, _ in best]
     if problem.skin is not None:
@@ -300,6 +300,7 @@ def thicken(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, 
     Where that is not enough, all become thicker by one factor; none becomes thinner. What cannot
     be held so is left as thick as it could be made there, and not everywhere.
     """
+    radii = problem.most_alike(radii)
     low = replace(problem, low=np.maximum(problem.low, radii))
     found = analyse(low, radii, limits)[0]
     for _ in range(_THICKENINGS if problem.skin is None else 3 * _THICKENINGS):
@@ -307,7 +308,7 @@ def thicken(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, 
             return found, True
         found, changes = analyse(low, found.radii, limits, with_changes=True)
         assert changes is not None
-        found = analyse(low, low.smoothed(_lighter(low, found, changes, limits)), limits)[0]
+        found = analyse(low, low.smoothed(next_radii(low, found, changes, limits)), limits)[0]
     scaled, holds = scaled_to_limits(low, limits, found.radii)
     return (scaled, True) if holds else (found, False)
 
@@ -317,7 +318,7 @@ def _factor(found: Analysis) -> float:
     return float(max(use ** (1.0 / _POWERS[name]) for name, use in found.uses.items()))
 
 
-def _lighter(problem: Problem, found: Analysis, changes: Changes, limits: Limits) -> Floats:
+def next_radii(problem: Problem, found: Analysis, changes: Changes, limits: Limits) -> Floats:
     """The next design: each node as thick as its struts' stresses and the shared limits ask for."""
     radii, shape = found.radii, problem.radii
     # Radii that go beyond what they may in one step are left for the next one.
@@ -348,6 +349,7 @@ def _lighter(problem: Problem, found: Analysis, changes: Changes, limits: Limits
         needed_near = np.repeat(felt[over].max(axis=1) ** _BESIDE, near.shape[1])
         np.maximum.at(needed, problem.skin.radii + near.ravel(), needed_near)
         low = np.clip(radii * needed, low, high)
+    low = problem.most_alike(low)
     shared, uses = [], []
     if changes.displacement is not None and changes.displacement_uses is not None:
         shared.append(changes.displacement)
@@ -360,8 +362,9 @@ def _lighter(problem: Problem, found: Analysis, changes: Changes, limits: Limits
         uses.append(changes.frame_uses)
     if not shared:
         return low
-    cost = np.maximum(shape.volume_change(radii), 1e-9)
-    return cheapest(radii, cost, np.concatenate(uses), np.concatenate(shared, axis=1), low, high)
+    cost = np.maximum(problem.mean_alike(shape.volume_change(radii)), 1e-9)
+    falls = problem.mean_alike(np.concatenate(shared, axis=1))
+    return cheapest(radii, cost, np.concatenate(uses), falls, low, high)
 
 
 def cheapest(

@@ -3,14 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from math import isfinite
 from numbers import Real
 
 from ...mechanics.materials import SolidMaterial
 from ...sizing.analysis import Limits
+from ...sizing.symmetry import Mirrors
 from ...util.arguments import check_kind
-from ...util.errors import VolfrepError
+from ...util.errors import VolfrepError, brief
 
 #: What a user may want: limits, or a mass of struts, and between which radii, how even; between
 #: which thicknesses of the skin, and how far apart these are chosen.
@@ -39,6 +41,8 @@ class Goal:
             between; inf for one thickness everywhere, None for the cell size.
         remove_thin: take away struts that end as thin as they may be, and size the rest again.
         weights: of the load cases, for stiffness; None for all alike.
+        radius_list: mm, the radii that nodes may have; empty for any.
+        mirrors: planes of symmetry; None for none.
     """
 
     limits: Limits = field(default_factory=Limits)
@@ -51,12 +55,18 @@ class Goal:
     skin_thickest: float | None = None
     skin_patch: float | None = None
     remove_thin: bool = False
+    radius_list: tuple[float, ...] = ()
+    mirrors: Mirrors | None = None
 
 
 def goal_of(
     material: SolidMaterial,
     asked: Mapping[str, float | None],
     named: Callable[[str], str] = str,
+    *,
+    remove_thin: bool = False,
+    radius_list: Sequence[float] = (),
+    symmetry: str | None = None,
 ) -> Goal:
     """The goal that a user has written down.
 
@@ -65,6 +75,9 @@ def goal_of(
         asked: of `GOALS`, what was given; the stress as it is or by a safety against yielding, the
             mass of the struts in g.
         named: what the user calls one of them, for messages.
+        remove_thin: see `Goal`.
+        radius_list: the radii that may be, mm; empty for any between bounds.
+        symmetry: planes as a text, such as "x=0, z=2.5"; None for none.
 
     Raises:
         VolfrepError: there is no goal of a name, two say the same, or a number makes no sense.
@@ -114,5 +127,46 @@ def goal_of(
     return Goal(
         limits, volume, given.get("thinnest"), given.get("thickest"), given.get("smooth", 0.0),
         skin_thinnest=given.get("skin_thinnest"), skin_thickest=given.get("skin_thickest"),
-        skin_patch=given.get("skin_patch"),
+        skin_patch=given.get("skin_patch"), remove_thin=remove_thin,
+        radius_list=_list_of(radius_list, given, named),
+        mirrors=None if symmetry is None else _mirrors_of(symmetry, named("symmetry")),
     )  # fmt: skip
+
+
+def _list_of(
+    radii: Sequence[float], given: Mapping[str, float], named: Callable[[str], str]
+) -> tuple[float, ...]:
+    """The list in order, in steps as files keep them."""
+    name = named("radius_list")
+    try:
+        numbers = sorted({round(float(radius), 6) for radius in radii})
+    except (TypeError, ValueError) as error:
+        raise VolfrepError(f"{name} is a list of radii in mm, not {brief(radii)}.") from error
+    if not all(isfinite(number) and number > 0.0 for number in numbers):
+        raise VolfrepError(f"{name} holds radii in mm above 0, not {brief(radii)}.")
+    for other in ("thinnest", "thickest"):
+        if numbers and other in given:
+            raise VolfrepError(
+                f"{name} says the thinnest radius and the thickest: leave {named(other)} out."
+            )
+    return tuple(numbers)
+
+
+def _mirrors_of(text: str, name: str) -> Mirrors:
+    """Planes, of a text such as "x=0, z=2.5"."""
+    check_kind(name, text, str, "a text such as 'x=0, z=2.5'")
+    planes: dict[int, float] = {}
+    for part in text.split(","):
+        axis, equals, value = part.partition("=")
+        number = "xyz".find(axis.strip().lower() or "?")
+        try:
+            place = float(value)
+        except ValueError:
+            place = float("nan")
+        if not equals or number < 0 or not isfinite(place) or number in planes:
+            raise VolfrepError(
+                f"{name} is planes across x, y or z, one of each at most, such as 'x=0, z=2.5', "
+                f"not {brief(text)}."
+            )
+        planes[number] = place
+    return Mirrors(tuple(sorted(planes.items())))

@@ -32,6 +32,8 @@ SKIN_EDGE_LEAST = 1.5
 DIMPLED = 0.5
 #: Steps in which the wall is found below a point; each leaves less than half of what was missing.
 _ALONG = 6
+#: A node's image is as near to another node, in cells; and no more nodes may have none.
+_IMAGE, MOST_LONE = 1e-3, 0.05
 
 
 def part_model(
@@ -77,6 +79,8 @@ def part_model(
         if np.array_equal(plain.struts.struts, wireframe.struts):
             clipped = plain.axes
     own = float(np.median(wireframe.radii))
+    if goal.radius_list:
+        goal = replace(goal, thinnest=goal.radius_list[0], thickest=goal.radius_list[-1])
     least = goal.thinnest if goal.thinnest is not None else 0.5 * own
     bears = infill.filling.radii_borne(own)
     most = bears.usual if goal.thickest is None else min(goal.thickest, bears.most)
@@ -110,6 +114,15 @@ def part_model(
     if goal.smooth:
         smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)
         model = replace(model, problem=replace(model.problem, smoother=smoother))
+    if goal.mirrors is not None:
+        groups, lone = goal.mirrors.groups(wireframe.nodes, _IMAGE * infill.filling.spacing)
+        if lone > MOST_LONE:
+            raise VolfrepError(
+                f"{lone:.0%} of the lattice's nodes have no image in the planes of symmetry: lay "
+                "a corner or the middle of a cell into each plane (the origin), and choose a cell "
+                "and a part that are their own images."
+            )
+        model = replace(model, problem=model.problem.alike(groups))
     return model
 
 

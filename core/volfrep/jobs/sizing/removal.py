@@ -103,6 +103,7 @@ def without_thin_struts(
     share = design.stress / np.maximum(design.stress.max(axis=(0, 1)), 1e-300)
     busy = model.wireframe.struts[model.struts[share.max(axis=(1, 2)) > slack]]
     thin[busy[thin[busy].all(axis=1)]] = False
+    thin = problem.most_alike(~thin * 1.0) == 0.0
     kept = np.where(thin, least, np.maximum(radii, _THICKER * limit))
     if (kept > problem.high).any():
         return None
@@ -116,7 +117,7 @@ def without_thin_struts(
     if not gone:
         return None
     rows = cKDTree(model.wireframe.nodes).query(part.struts.nodes)[1]
-    bounds = replace(goal, thinnest=least)
+    bounds = replace(goal, thinnest=least, radius_list=())
     left = part_model(part, loads, bounds, cache, reach[rows])
     is_thin, high = thin[rows], left.problem.high
     low = np.where(is_thin, kept[rows], np.minimum(_THICKER * limit, high))

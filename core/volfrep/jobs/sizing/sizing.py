@@ -18,6 +18,7 @@ from ...loads.load_cases import LoadCases
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.sizing_report import sizing_report
 from ...sizing.analysis import Analysis, Limits, Problem, analyse
+from ...sizing.discrete_radii import of_list
 from ...sizing.model import SizingModel
 from ...sizing.optimise import HOLDS, Sized, Step, Watch, lightest, stiffest, thicken, uniform
 from ...sizing.proof import Proved, correct_problem, prove_design
@@ -178,6 +179,7 @@ class _Search:
         whole: the design with all struts.
         even: one radius for all that holds the limits, and whether it does; None without limits.
         taken: what is left of the struts; None where none was taken away.
+        any_radii: the design before its radii were those of a list; None without a list.
     """
 
     model: SizingModel
@@ -185,6 +187,7 @@ class _Search:
     whole: Sized
     even: tuple[Analysis, bool] | None
     taken: Thinned | None
+    any_radii: Analysis | None = None
 
 
 def _checked(goal: Goal) -> Goal:
@@ -295,7 +298,14 @@ def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | N
         sized, taken = whole, None
         if goal.remove_thin and whole.stopped != "cancelled":
             taken, sized = _without_thin(task, whole, most_steps, told)
-    return _Search(task.model if taken is None else taken.model, sized, whole, even, taken)
+        model, any_radii = task.model if taken is None else taken.model, None
+        if goal.radius_list:
+            any_radii = sized.analysis
+            found, holds = of_list(
+                model.problem, goal.limits, any_radii, np.array(goal.radius_list)
+            )
+            sized = replace(sized, analysis=found, holds=holds)
+    return _Search(model, sized, whole, even, taken, any_radii)
 
 
 def _with_this_skin(problem: Problem, goal: Goal, first: Floats, skin: SkinDesign) -> Sized:
@@ -347,6 +357,11 @@ def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[st
                     # Where CalculiX finds more than is allowed, struts become that much thicker.
                     problem, stricter = correct_problem(problem, limits, final, proof)
                     found, holds = thicken(problem, stricter, final.radii)
+                    if task.goal.radius_list:
+                        no_thinner = replace(problem, low=np.maximum(problem.low, final.radii))
+                        found, holds = of_list(
+                            no_thinner, stricter, found, np.array(task.goal.radius_list)
+                        )
                     final, proof = _stored(problem, found.radii, limits), None
                     proof = solve_again(problem, final)
                     if not holds:
@@ -413,6 +428,8 @@ def _record(
         seconds=seconds, notes=tuple(task.notes),
         unthinned=None if taken is None else (search.whole.analysis, taken.struts),
     )  # fmt: skip
+    if search.any_radii is not None:
+        report["radius_list"] = _told_list(task.goal.radius_list, search)
     if task.skin is not None:
         report["skin_stress_mpa"] = skin_peaks(search.model, search.sized.analysis)
         report["skin"] = {
@@ -421,6 +438,20 @@ def _record(
             "even": task.skin.even,
         }
     return SizedPart(graded, points, radii, search.model, search.sized, before, search.even, report)
+
+
+def _told_list(radii: tuple[float, ...], search: _Search) -> dict[str, Any]:
+    """How many nodes have each radius of the list, and what the list costs."""
+    free, final = search.any_radii, search.sized.analysis
+    assert free is not None
+    row = np.searchsorted(np.array(radii) + 0.5 * RADIUS_STEP, final.radii)
+    return {
+        "radii_mm": list(radii),
+        "nodes": np.bincount(row, minlength=len(radii)).tolist(),
+        "any_radii_strut_volume_mm3": free.volume,
+        "volume_over_any_radii": final.volume / free.volume,
+        "compliance_over_any_radii": (final.compliance / free.compliance).tolist(),
+    }
 
 
 def solve_struts(

@@ -24,6 +24,7 @@ from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel, with_sized_skin
 from ...sizing.optimise import Sized, Step, lightest, stiffest, uniform
 from ...sizing.skin_thickness import shares_of
+from ...sizing.symmetry import Mirrors
 from ...spatial.proximity import closest_points
 from ...util.cache import StageCache
 from ...util.errors import VolfrepError
@@ -116,8 +117,9 @@ def design_skin(
             radii = design.radii_at(model.wireframe.nodes)
         thickness = thickness_of_skin(solid, spec)
         varied, roots = with_sized_skin(
-            model, thickness if callable(thickness) else _constant(thickness), (low, high), patch
-        )
+            model, thickness if callable(thickness) else _constant(thickness), (low, high), patch,
+            goal.mirrors,
+        )  # fmt: skip
         problem = varied.problem
         first = np.clip(np.concatenate([radii, roots]), problem.low, problem.high)
 
@@ -126,7 +128,7 @@ def design_skin(
 
         sized = _searched(problem, limits, goal, first, most_steps, told)
         steps += sized.steps
-        spec = replace(spec, shell=low, skin_field=_field(problem, sized))
+        spec = replace(spec, shell=low, skin_field=_field(problem, sized, goal.mirrors))
         count = len(model.wireframe.nodes)
         even = None
         if number == searches - 1 and goal.limits.any:
@@ -183,7 +185,7 @@ def _searched(
     return stiffest(problem, volume, first, weights=weights, most_steps=most_steps, watch=watch)
 
 
-def _field(problem: Problem, sized: Sized) -> PointField:
+def _field(problem: Problem, sized: Sized, mirrors: Mirrors | None) -> PointField:
     """The thickness of a design at the skin's inner side, where its wall is to be."""
     skin = problem.skin
     assert skin is not None
@@ -199,7 +201,10 @@ def _field(problem: Problem, sized: Sized) -> PointField:
     depth = np.minimum(wanted, 0.5 * model.room[rows])
     inwards = model.inside[rows] - outside
     inwards /= np.maximum(np.linalg.norm(inwards, axis=1), 1e-300)[:, None]
-    return PointField(np.round(outside + depth[:, None] * inwards, 6), wanted, "sizing")
+    places = outside + depth[:, None] * inwards
+    if mirrors is not None:
+        places, wanted = mirrors.images(places, wanted)
+    return PointField(np.round(places, 6), wanted, "sizing")
 
 
 def _reach(points: Floats, places: Floats) -> float:

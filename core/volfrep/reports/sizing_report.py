@@ -192,6 +192,8 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
                 f"the part {held['5%']:.1%} to {held['95%']:.1%} of that on 90% of its area",
             )
         )
+        if skin["solid"]:
+            rows.append(("solid", _solid(skin["solid"])))
         if skin["even"] is not None:
             even = skin["even"]
             mass = even["volume_mm3"] * report["material"]["density"] / 1000.0
@@ -207,6 +209,16 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     if "file" in report:
         rows += _file_rows(report["file"])
     return rows
+
+
+def _solid(places: list[dict[str, Any]]) -> str:
+    """How much is solid, in how many places, and where the heaviest lies."""
+    x, y, z = places[0]["middle_mm"]
+    mass = sum(place["mass_g"] for place in places)
+    return (
+        f"{mass:.4g} g of the skin where both its sides meet, in {len(places)} places; the "
+        f"heaviest, {places[0]['mass_g']:.4g} g, about ({x:.4g}, {y:.4g}, {z:.4g})"
+    )
 
 
 def _file_rows(file: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -11,6 +11,7 @@ from volfrep import LatticeSpec
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing import Goal
 from volfrep.jobs.sizing.part_model import part_model
+from volfrep.jobs.sizing.skin_search import solid_places
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Moment, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
@@ -158,3 +159,23 @@ def test_a_closed_tube_buckles_as_eulers_column():
     inertia = wall * (b * h**2 / 2.0 + h**3 / 6.0)
     euler = np.pi**2 * TITANIUM.young * inertia / (4.0 * (length - wall) ** 2)
     assert found.factors[0] * 1000.0 == pytest.approx(euler, rel=0.03)
+
+
+def test_where_a_skin_meets_itself_the_part_is_solid_and_that_is_told():
+    """A wedge: solid as far as it is thinner than two skins, which is one place of known mass."""
+    length, width, thick, shell = 60.0, 12.0, 12.0, 2.0
+    solid = samples.box((length, width, thick))
+    points = solid.vertices.copy()
+    points[:, 2] *= np.where(points[:, 0] > 0.5 * length, 2.4 / thick, 1.0)
+    wedge = replace(solid, vertices=points)
+    case = LoadCase("end", (Support(on_plane(0, 0.0)),), (Force(on_plane(0, length), (9.0, 0, 0)),))
+    spec = LatticeSpec("CVC", cell_size=6.0, strut_radius=0.3, shell=shell)
+    infill = Infill(wedge, spec, monitor=Monitor(), cache=StageCache())
+    model = part_model(infill, LoadCases(TITANIUM, (case,)), Goal(thinnest=0.2), StageCache())
+    heaviest, *rest = solid_places(model, 4.0)
+    # From where it is two skins thick, 4 mm, to its end of 2.4 mm.
+    from_there = (thick - 2.0 * shell) / (thick - 2.4) * length
+    assert heaviest["box_mm"][1][0] == pytest.approx(length, abs=0.1)
+    assert heaviest["box_mm"][0][0] == pytest.approx(from_there, abs=6.0)
+    assert sum(place["mass_g"] for place in rest) < 0.3 * heaviest["mass_g"]
+    assert heaviest["mass_g"] == pytest.approx(4e-3 * width * (length - from_there) * 3.2, rel=0.4)

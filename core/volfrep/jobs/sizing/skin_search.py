@@ -19,6 +19,7 @@ from scipy.spatial import cKDTree
 from ...design.scattered_field import PointField
 from ...design.spec import LatticeSpec
 from ...loads.load_cases import LoadCases
+from ...mesh.topology import pieces_of
 from ...mesh.triangle_mesh import TriangleMesh
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel, with_sized_skin
@@ -40,6 +41,8 @@ from .part_model import given_radii, part_model, thickness_of_skin
 STEP = 1e-6
 #: Searches, each with the skin that the one before has found.
 _SEARCHES = 2
+#: A part is solid where its skin has this part of what there is room for, or more: half of it.
+_MEETS = 0.4975
 
 
 @dataclass(frozen=True, eq=False)
@@ -261,6 +264,44 @@ def thickness_there(model: SizingModel, domain: TriangleMesh) -> dict[str, Any]:
         "there_over_asked": {"5%": low, "50%": middle, "95%": high},
         "solid_share": skin.solid_share,
     }
+
+
+def solid_places(model: SizingModel, density: float) -> list[dict[str, Any]]:
+    """Where the skin's two sides meet, so that the part is solid: the heaviest place first.
+
+    Args:
+        model: of the part as it is.
+        density: g/cm3.
+
+    Returns:
+        Of each place its mass in g, its middle, and the box that it lies in, mm.
+    """
+    skin = model.skin
+    assert skin is not None
+    shells = skin.shells
+    full = shells.thickness >= _MEETS * skin.room[shells.triangles].mean(axis=1)
+    own, area = shells.triangles[full], shells.area[full]
+    mass = area * shells.thickness[full] * density / 1000.0
+    if not len(own):
+        return []
+    # A wall's two sides are one place: each vertex hangs together with those beyond it.
+    beyond = skin.joined.beyond
+    one = np.concatenate([own[:, 0], own[:, 1], np.repeat(skin.joined.vertices, 3)])
+    two = np.concatenate([own[:, 1], own[:, 2], beyond.ravel()])
+    place = pieces_of(one, two, len(skin.middle))[1][own[:, 0]]
+    middles = skin.middle[own].mean(axis=1)
+    found = []
+    for number in np.unique(place):
+        rows = place == number
+        there = skin.outside.vertices[own[rows]].reshape(-1, 3)
+        found.append(
+            {
+                "mass_g": float(mass[rows].sum()),
+                "middle_mm": np.average(middles[rows], axis=0, weights=mass[rows]).tolist(),
+                "box_mm": [there.min(axis=0).tolist(), there.max(axis=0).tolist()],
+            }
+        )
+    return sorted(found, key=lambda place: -place["mass_g"])
 
 
 def write_thickness(spec: LatticeSpec, path: str | os.PathLike[str]) -> None:

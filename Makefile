@@ -13,7 +13,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 .NOTPARALLEL:
 .PHONY: help setup setup-light demo check test test-all test-slow lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
-	digests vocabulary validate release test-wheel test-wine test-release site test-escape torture fuzz bench bench-quick bench-readme catalogue clean
+	digests vocabulary validate release test-wheel test-wine test-release site test-escape test-menu torture fuzz bench bench-quick bench-readme catalogue clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -109,6 +109,9 @@ test-in-freecad: setup ## both of these side by side
 test-gui: MARK :=
 test-gui: setup ## every check of the real FreeCAD window, on a virtual screen
 	@$(SIDE_BY_SIDE) $(WINDOWS)
+
+test-menu: setup ## every entry of the menu clicked, for docs/commands/clicked.md (tools/menu_table.py)
+	@tools/run_gui.sh tests/gui/drive_reach.py click_every_entry_of_the_menu < /dev/null
 
 test-escape: setup ## Escape at ten random times in every long command of the window, a quarter of an hour
 	@ESCAPES=10 GUI_LONGEST=900 GUI_TIMEOUT=3600 tools/run_gui.sh tests/gui/drive_escape.py < /dev/null

@@ -4,6 +4,7 @@
 In the real FreeCAD window; see tools/run_gui.sh. Leaves with 0 when every check held.
 """
 
+import json
 import os
 import subprocess
 import sys
@@ -17,6 +18,7 @@ from PySide import QtCore, QtGui
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import new_infill
 from driving import (
+    OUT,
     PATIENCE,
     Watch,
     check,
@@ -137,42 +139,61 @@ def open_sections(obj):
     one_opens("by the context menu elsewhere")
 
 
+def view_state():
+    """What hangs in the view, and whether its objects are seen."""
+    if Gui.activeDocument() is None:
+        return None
+    shown = [obj.Name for obj in App.ActiveDocument.Objects if obj.Visibility]
+    return Gui.activeDocument().activeView().getSceneGraph().getNumChildren(), shown
+
+
 def answer_of(text):
     """Really click a command in the menu; what comes of it, in words, which is then closed."""
     doc, boxes = App.ActiveDocument, []
-    state = lambda: (  # noqa: E731
-        doc and (len(doc.Objects), doc.UndoCount), len(said()),
-        Gui.activeDocument() and Gui.activeDocument().activeView().getSceneGraph().getNumChildren(),
-    )  # fmt: skip
 
     def look():
         box = QtGui.QApplication.activeModalWidget()
         if box is not None and box.isVisible():
-            boxes.append(f"box: {box.windowTitle()}")
+            boxes.append(f"box *{box.windowTitle() or box.text()}*")
+            photograph(text)
             box.reject()
         return False
 
-    before, watch = state(), Watch(look, f"a box of {text}")
+    labels = [one.Label for one in doc.Objects] if doc else []
+    before, told, watch = view_state(), len(said()), Watch(look, f"a box of {text}")
     click_menu("VOLFREP", text)
     watch.stop()
     main = Gui.getMainWindow()
     found = boxes
     if Gui.Control.activeDialog():
         found.append("panel")
-        picture(f"menu_{text.replace(' ', '_').lower()}")
+        photograph(text)
         buttons = [b for b in main.findChildren(QtGui.QPushButton) if b.isVisible()]
         texts = [b.text().replace("&", "") for b in buttons]
         click(buttons[texts.index("Cancel" if "Cancel" in texts else "Close")])
         wait_until(lambda: not Gui.Control.activeDialog())
     for window in main.findChildren(QtGui.QDialog) + main.findChildren(QtGui.QDockWidget):
         if window.objectName().startswith("Volfrep") and window.isVisible():
-            found.append(f"window: {window.windowTitle()}")
-            picture(f"menu_{text.replace(' ', '_').lower()}")
+            found.append(f"window *{window.windowTitle()}*")
+            photograph(text)
+            outside = main.screen().geometry().united(window.frameGeometry())
+            check(f"{window.windowTitle()} is on the screen", outside == main.screen().geometry(),
+                  window.frameGeometry())  # fmt: skip
             window.close()
     settle()
-    if not found and state() != before:
-        found.append("result")
-    return ", ".join(found)
+    found += [f"object *{one.Label}*" for one in (doc.Objects if doc else [])
+              if one.Label not in labels]  # fmt: skip
+    if not found and view_state() != before:
+        photograph(text)
+        found.append("shown in the view")
+    if not found and said()[told:].strip():
+        found.append("said in the report view")
+    return ", ".join(dict.fromkeys(found))
+
+
+def photograph(text):
+    """A picture of what a command of the menu shows."""
+    picture(f"menu_{text.replace(' ', '_').lower()}")
 
 
 @slow
@@ -184,6 +205,7 @@ def click_every_entry_of_the_menu(obj):
     for name, command in COMMANDS.items():
         if name in EXAMPLES:
             continue
+        table[command.text] = {}
         for given in ("a lattice", "nothing"):
             App.setActiveDocument(doc.Name)
             select(*([obj] if given == "a lattice" else []))
@@ -192,15 +214,18 @@ def click_every_entry_of_the_menu(obj):
             if entry.isEnabled():
                 seen = answer_of(command.text)
             else:
-                seen = f"greyed: {entry.statusTip().rpartition(chr(0x2192))[2].strip()}"
-            table[f"{command.text}, with {given}"] = seen
+                seen = f"grey: {entry.statusTip().rpartition(chr(0x2192))[2].strip()}"
+            table[command.text][given] = seen
             print(f"{command.text} | {given} | {seen}", file=sys.__stdout__, flush=True)
-            check(f"{command.text} answers with {given} selected", seen not in ("", "greyed: "))
+            check(f"{command.text} answers with {given} selected", seen not in ("", "grey: "))
             check("nothing is raised", "Traceback" not in said()[told:], said()[told:][-500:])
             if not is_alive(obj):
                 check(f"{command.text} leaves the lattice", False)
                 return
-    figures["every entry of the menu"] = table
+    (OUT / "menu.json").write_text(
+        json.dumps({"FreeCAD": ".".join(App.Version()[:2]), "seen": table}, indent=1),
+        encoding="utf-8",
+    )
 
 
 def is_alive(obj):

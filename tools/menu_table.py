@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""docs/commands/clicked.md anew, from what `make test-menu` has seen in each FreeCAD.
+
+First run it here, and with tools/freecad_in.sh in the others: what their runs left lies in build/.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs/commands/clicked.md"
+#: Of the runs' folders, in the order of FreeCAD's releases.
+FOLDERS = ("", "debian13", "forky")
+HEAD = """# Clicked in each FreeCAD
+
+What a real click on each entry of the menu brought in FreeCAD {versions}, where `make test-menu` found no error in the report view and no window beyond the screen. The examples have a check of their own. *Grey* entries say in the status bar what to select.
+
+| command | a lattice is selected | nothing is selected |
+| --- | --- | --- |
+"""  # noqa: E501
+
+
+def told(seen: dict[str, str]) -> str:
+    """What was seen, once where all releases showed the same."""
+    short = {
+        version: "grey" if text.startswith("grey: ") else text for version, text in seen.items()
+    }
+    if len(set(short.values())) == 1:
+        return next(iter(short.values()))
+    return "; ".join(f"{version}: {text}" for version, text in short.items())
+
+
+def page(runs: list[dict[str, Any]]) -> str:
+    """The page, of runs in the order of their releases."""
+    tables = {str(run["FreeCAD"]): run["seen"] for run in runs}
+    commands = list(dict.fromkeys(name for table in tables.values() for name in table))
+    rows = []
+    for name in commands:
+        cells = [
+            told(
+                {version: table.get(name, {}).get(given, "-") for version, table in tables.items()}
+            )
+            for given in ("a lattice", "nothing")
+        ]
+        rows.append(f"| {name} | {cells[0]} | {cells[1]} |\n")
+    return HEAD.format(versions=", ".join(tables)) + "".join(rows)
+
+
+def main() -> None:
+    """Write the page, if every release was run."""
+    paths = [ROOT / "build" / folder / "gui" / "menu.json" for folder in FOLDERS]
+    missing = [str(path.relative_to(ROOT)) for path in paths if not path.is_file()]
+    if missing:
+        sys.exit(f"menu-table: {', '.join(missing)} is missing: run `make test-menu` there.")
+    runs = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
+    PAGE.write_text(page(runs), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

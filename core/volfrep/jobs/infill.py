@@ -238,7 +238,7 @@ class Infill:
         else:
             with self.monitor.stage("check", 1.0, 1.0):
                 surface, quality, notes = finish(
-                    surface, quality, self.monitor, self.filling.is_moved
+                    surface, quality, self.monitor, self.filling.is_moved, least=cleared.least
                 )
             warnings += self.filling.notes + notes
         if output == "lattice":

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
@@ -19,7 +19,7 @@ from ..util.errors import VolfrepError
 from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import threads
-from .topology import edge_uses
+from .topology import edge_uses, touching, vertices_of
 from .triangle_mesh import TriangleMesh
 
 T = TypeVar("T")
@@ -208,6 +208,49 @@ def inspect(mesh: TriangleMesh, monitor: Monitor | None = None) -> Inspection:
         bounds=bounds,
     )
     return Inspection(quality, shell, shell_volumes)
+
+
+def quality_after_moves(
+    quality: Quality,
+    before: TriangleMesh,
+    after: TriangleMesh,
+    bounds: NDArray[np.float64],
+    least: float,
+) -> Quality | None:
+    """The quality of a surface some of whose vertices have moved, by a look at those only.
+
+    Args:
+        quality: of the surface as it was.
+        before: the part of it in which vertices move; elsewhere it may go on.
+        after: the same triangles where they are now.
+        bounds: (2, 3) of the surface as it is now, mm.
+        least: no shell of it enclosed less, mm3.
+
+    Returns:
+        None where a shell may have been turned inside out.
+    """
+    moved = np.flatnonzero((before.vertices != after.vertices).ravel()) // 3
+    rows = np.flatnonzero(touching(vertices_of(moved, len(before.vertices)), before.triangles))
+    if not len(rows):
+        return replace(quality, bounds=bounds)
+    used, local = np.unique(before.triangles[rows], return_inverse=True)
+    triangles = local.reshape(-1, 3).astype(np.int32)
+    old, new = before.vertices[used], after.vertices[used]
+    # What a triangle sweeps is no more than its way times what it may cover.
+    way = np.linalg.norm(new - old, axis=1)[triangles].max(axis=1)
+    corners = old[triangles]
+    side = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    if not float((way * (side + 2.0 * way) ** 2).sum()) < least:
+        return None
+    centre = old.mean(axis=0)
+    was, now = (_sizes(np.ascontiguousarray(each.T), centre, triangles) for each in (old, new))
+    return replace(
+        quality,
+        degenerate_triangles=quality.degenerate_triangles + now[2] - was[2],
+        volume=quality.volume + float(now[0].sum() - was[0].sum()),
+        area=quality.area + now[1] - was[1],
+        bounds=bounds,
+    )
 
 
 def shape_statistics(mesh: TriangleMesh) -> ShapeStatistics:

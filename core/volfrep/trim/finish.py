@@ -19,7 +19,7 @@ from ..mesh.float32_repair import (
     without_slivers_at,
 )
 from ..mesh.precision import merging_vertices
-from ..mesh.quality import Quality, refuse_no_solid
+from ..mesh.quality import Quality, quality_after_moves, refuse_no_solid
 from ..mesh.topology import touching
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.resolve_crossings import Turns, resolve_fold_crossings, turns_of
@@ -75,7 +75,12 @@ def tidy(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimmed
 
 
 def finish(
-    surface: TrimmedSurface, quality: Quality, monitor: Monitor, moved: bool, cut: bool = True
+    surface: TrimmedSurface,
+    quality: Quality,
+    monitor: Monitor,
+    moved: bool,
+    cut: bool = True,
+    least: float = 0.0,
 ) -> tuple[TrimmedSurface, Quality, tuple[str, ...]]:
     """A surface as it is handed out, its quality that of any file, and sentences for the user.
 
@@ -85,6 +90,7 @@ def finish(
         monitor: for progress and cancel.
         moved: whether the octants' vertices are elsewhere than they were meshed.
         cut: whether a wall has cut them; what is neither needs no look.
+        least: no shell of it encloses less, mm3; 0 where that is not known.
 
     Raises:
         VolfrepError: it encloses no volume, runs through itself, or touches itself so that no
@@ -96,13 +102,13 @@ def finish(
         changed = replace(surface, mesh=apart)
         wider = _with_reached(surface, changed, monitor)
         if wider is not changed:
-            return finish(wider, quality, monitor, moved, cut)
+            return finish(wider, quality, monitor, moved, cut, least)
         surface = changed
-        again = surface.inspected(monitor).found.quality
+        again = _quality_after(mesh, surface, quality, least, monitor)
         if abs(again.volume - quality.volume) > MOST_MOVED * abs(quality.volume):
             raise _finer_than_files(mesh)
         refuse_merging(apart)
-        quality = again
+        quality, least = again, 0.5 * least  # the shells may have lost as much
     straight, place, drawn = surface.mesh, None, False
     if moved or cut:
         turns = turns_of(surface.mesh, monitor, moved)
@@ -119,9 +125,9 @@ def finish(
         changed = replace(surface, mesh=straight)
         wider = _with_reached(surface, changed, monitor)
         if wider is not changed:
-            return finish(wider, quality, monitor, moved, cut)
+            return finish(wider, quality, monitor, moved, cut, least)
         surface = changed
-        quality = surface.inspected(monitor).found.quality
+        quality = _quality_after(before, surface, quality, least, monitor)
     refuse_no_solid(quality)
     told = () if place is None else (_touching(place),)
     if not moved:
@@ -139,6 +145,16 @@ def finish(
     if share > MOST_CROSSED:
         raise VolfrepError(f"{where}, {advice}.")
     return surface, quality, (*told, f"{where}; {advice} if that matters.")
+
+
+def _quality_after(
+    before: TriangleMesh, surface: TrimmedSurface, quality: Quality, least: float, monitor: Monitor
+) -> Quality:
+    """The quality of a surface that vertices of its mesh have moved on, as of `finish`."""
+    found = None
+    if least > 0.0 and surface.mesh.triangles is before.triangles and surface.is_joined:
+        found = quality_after_moves(quality, before, surface.mesh, surface.bounds, 0.5 * least)
+    return surface.inspected(monitor).found.quality if found is None else found
 
 
 def thinned(

@@ -26,6 +26,7 @@ class Cleared:
         pieces_removed: pieces of material that hung on nothing.
         specks_removed: shells smaller than a facet, which no sample could follow.
         volume_removed: of the pieces, mm3.
+        least: no shell that is left encloses less, mm3; 0 where that is not known.
     """
 
     surface: TrimmedSurface
@@ -33,6 +34,7 @@ class Cleared:
     pieces_removed: int
     specks_removed: int
     volume_removed: float = 0.0
+    least: float = 0.0
 
 
 def smallest_shell(octant_spec: OctantSpec) -> float:
@@ -77,7 +79,8 @@ def clear(
         loose |= solid
         loose[order[:bodies]] = False
     if not (loose | tiny).any():
-        return Cleared(surface, found.quality, 0, 0)
+        least = float(np.abs(volume[used]).min(initial=np.inf))
+        return Cleared(surface, found.quality, 0, 0, least=least)
     # What goes has to be in the mesh, with all that may lie in it.
     alone = joined.beyond & (np.bincount(label, minlength=len(volume)) == 0)
     if (joined.beyond & (loose | tiny)).any() or ((loose & ~tiny).any() and (void & alone).any()):
@@ -97,7 +100,10 @@ def clear(
     else:
         quality = left.inspected(monitor).found.quality
     pieces = loose & ~tiny
-    return Cleared(left, quality, int(pieces.sum()), int(tiny.sum()), float(volume[pieces].sum()))
+    least = float(np.abs(volume[used & ~gone]).min(initial=np.inf))
+    return Cleared(
+        left, quality, int(pieces.sum()), int(tiny.sum()), float(volume[pieces].sum()), least
+    )
 
 
 def _enclosed(

@@ -23,7 +23,7 @@ from ..lattice.certificate import keeps_corners
 from ..lattice.strut_masks import without_struts
 from ..mesh.booleans import as_manifold
 from ..mesh.float32_repair import edge_within, shortest_edge
-from ..mesh.quality import combine, inspect, measure
+from ..mesh.quality import combine, inspect
 from ..mesh.triangle_mesh import TriangleMesh, concatenate
 from ..octants.octant import OctantGrid, used_kinds
 from ..octants.octant_spec import OctantSpec
@@ -196,7 +196,13 @@ def cleared_cut(
         return cleared
     cut = cleared.surface
     both = replace(cut, mesh=concatenate(solid, cut.mesh))
-    return replace(cleared, surface=both, quality=combine(measure(solid), cleared.quality))
+    skin = inspect(solid, monitor)
+    return replace(
+        cleared,
+        surface=both,
+        quality=combine(skin.quality, cleared.quality),
+        least=min(cleared.least, float(np.abs(skin.volume).min(initial=np.inf))),
+    )
 
 
 def _to_look_at(laid: PlacedLattice, wall: TriangleMesh) -> Bools:
@@ -238,7 +244,9 @@ def drained_part(
     clean = tidy(drained.surface, shortest_edge(solid), monitor)
     rest = clear(clean, smallest, monitor)
     specks = cleared.specks_removed + rest.specks_removed
-    found = replace(cleared, surface=rest.surface, quality=rest.quality, specks_removed=specks)
+    found = replace(
+        cleared, surface=rest.surface, quality=rest.quality, specks_removed=specks, least=rest.least
+    )
     return found, replace(drained, surface=rest.surface)
 
 

@@ -11,7 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contract import assert_same_quality
-from volfrep.mesh.quality import measure, shape_statistics, subtract_shells
+from volfrep.mesh.quality import (
+    inspect,
+    measure,
+    quality_after_moves,
+    shape_statistics,
+    subtract_shells,
+)
 from volfrep.mesh.topology import pinched_vertices
 from volfrep.mesh.triangle_mesh import TriangleMesh, compact, concatenate, empty_mesh
 from volfrep.util.errors import Cancelled
@@ -223,3 +229,37 @@ def test_measuring_can_be_cancelled(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(Cancelled):
         measure(torus(), Monitor(lambda fraction, stage: False))
     held.set()
+
+
+def moved_a_little(mesh: TriangleMesh, way: float) -> TriangleMesh:
+    """Every ninth vertex elsewhere by a part of the way along each axis, mm."""
+    vertices = mesh.vertices.copy()
+    some = np.arange(0, len(vertices), 9)
+    vertices[some] += np.random.default_rng(0).uniform(-way, way, (len(some), 3))
+    return TriangleMesh(vertices, mesh.triangles)
+
+
+def test_vertices_that_move_a_little_change_what_they_touch() -> None:
+    before = concatenate(torus(), box(3.0, (20.0, 0.0, 0.0)))
+    after, found = moved_a_little(before, 0.01), inspect(before)
+    least = float(np.abs(found.volume).min())
+    told = quality_after_moves(found.quality, before, after, after.bounds, least)
+    assert told is not None
+    assert told.volume != found.quality.volume
+    assert_same_quality(told, measure(after))
+
+
+def test_vertices_that_stay_change_nothing() -> None:
+    mesh = torus()
+    quality = measure(mesh)
+    same = quality_after_moves(quality, mesh, mesh, mesh.bounds, 1.0)
+    assert same is not None
+    assert_same_quality(same, quality)
+
+
+def test_a_shell_that_may_have_turned_inside_out_is_not_told_by_a_look_at_moves() -> None:
+    mesh = concatenate(torus(), box(0.01))
+    found = inspect(mesh)
+    least = float(np.abs(found.volume).min())
+    after = moved_a_little(mesh, 0.01)
+    assert quality_after_moves(found.quality, mesh, after, after.bounds, least) is None

@@ -90,6 +90,7 @@ def solve_frame(
     *,
     skin: SolidSkin | None = None,
     more_nodes: Floats | None = None,
+    attached: Floats | None = None,
     modes: int = 0,
     expected: Floats | None = None,
     monitor: Monitor | None = None,
@@ -102,6 +103,7 @@ def solve_frame(
         cases: what they carry; their nodes are the beams' and those of the skin.
         skin: about them; None for none.
         more_nodes: (h, 3) nodes behind those of the skin, which only follow others, mm.
+        attached: (nodes,) t, of bodies that move with the nodes; None for none.
         modes: how many frequencies, with the first case's supports.
         expected: (cases,) near which load factor each case buckles, nan where that is not asked
             for; None for nowhere.
@@ -125,6 +127,10 @@ def solve_frame(
         yield from _beams(nodes, model, material)
         if skin is not None:
             yield from _skin(skin, model, material)
+        if attached is not None:
+            first = len(model.elements)
+            first += 0 if skin is None else len(skin.mesh.elements) + 3 * len(skin.springs)
+            yield from _masses(attached, first)
         yield _boundary(held).encode()
         yield from (step.encode() for step in steps)
 
@@ -239,6 +245,14 @@ def _skin(skin: SolidSkin, model: BeamMesh, material: Material) -> Iterator[byte
         yield from element_block("SPRING2", f"S{axis}", springs, skin.springs)
         number += len(skin.springs)
         yield f"*SPRING,ELSET=S{axis}\n{axis},{axis}\n{skin.stiffness:.10g}\n".encode()
+
+
+def _masses(attached: Floats, first: int) -> Iterator[bytes]:
+    """Points with a mass, whose elements have the numbers from `first`."""
+    nodes = np.flatnonzero(attached)
+    for k, node in enumerate(nodes.tolist()):
+        yield from element_block("MASS", f"A{k}", np.array([first + k]), np.array([[node]]))
+        yield f"*MASS,ELSET=A{k}\n{attached[node]:.12g}\n".encode()
 
 
 def _boundary(held: Bools) -> str:

@@ -31,7 +31,7 @@ from ..continuum.model import (
 from ..design.spec import LatticeSpec
 from ..grid.placement import node_radii
 from ..io.write.vtu import write_vtu
-from ..loads.load_cases import LoadCases
+from ..loads.load_cases import LoadCases, with_weights
 from ..mechanics.elements import PARTS, solid_stiffness
 from ..mechanics.endless import strains_held
 from ..mesh.triangle_mesh import TriangleMesh
@@ -178,7 +178,7 @@ def homogenise_part(
     with monitor.stage("elements", 0.3, 0.6):
         model = continuum_model(infill, loads, element)
     with monitor.stage("solving", 0.6, 1.0):
-        states = solve_continuum(model, loads.cases, monitor)
+        states = solve_continuum(model, with_weights(loads).cases, monitor)
     report = {
         "material": loads.material.as_dict(),
         "elements": len(model.elements.nodes),

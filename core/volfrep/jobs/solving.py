@@ -16,7 +16,7 @@ from typing import Any
 
 from ..design.memory_guard import free_memory, rounded_up
 from ..io.write.vtu import write_vtu
-from ..loads.load_cases import LoadCases
+from ..loads.load_cases import LoadCases, with_weights
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.files import write_json
@@ -221,7 +221,7 @@ def solve_solid(
         with monitor.stage("voxels", low, low + 0.1 * (high - low)):
             model = voxel_model(solid, edge, loads.material, monitor)
         with monitor.stage("solving", low + 0.1 * (high - low), high):
-            states = solve_cases(model, loads.cases, monitor)
+            states = solve_cases(model, with_weights(loads).cases, monitor)
         models.append(model)
         figures.append([figures_of(model, state) for state in states])
     fine = models[-1]

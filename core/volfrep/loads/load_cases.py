@@ -108,6 +108,25 @@ Load = Force | Moment | Pressure
 
 
 @dataclass(frozen=True)
+class Mass:
+    """A body that hangs on a region and is not stiff itself; a facet has its part by area.
+
+    Attributes:
+        region: where.
+        mass: g.
+        name: for messages and reports.
+    """
+
+    region: Region
+    mass: float
+    name: str = "mass"
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.mass) and self.mass > 0.0):
+            raise VolfrepError(f"The mass of '{self.name}' must be above 0, not {self.mass:g}.")
+
+
+@dataclass(frozen=True)
 class LoadCase:
     """Loads that act together.
 
@@ -143,10 +162,12 @@ class LoadCases:
     Attributes:
         material: of skin and struts.
         cases: each by itself; at least one.
+        masses: of bodies that are attached in every case.
     """
 
     material: SolidMaterial
     cases: tuple[LoadCase, ...]
+    masses: tuple[Mass, ...] = ()
 
     def __post_init__(self) -> None:
         names = [case.name for case in self.cases]
@@ -155,6 +176,20 @@ class LoadCases:
         twice = [name for k, name in enumerate(names) if name in names[:k]]
         if twice:
             raise VolfrepError(f"Two load cases have the name '{twice[0]}': rename one.")
+
+
+def with_weights(loads: LoadCases) -> LoadCases:
+    """The same, where accelerations pull at attached bodies by forces of the cases."""
+    cases = []
+    for case in loads.cases:
+        x, y, z = case.acceleration
+        pulls = tuple(
+            Force(body.region, (1e-6 * body.mass * x, 1e-6 * body.mass * y, 1e-6 * body.mass * z),
+                  name=body.name)
+            for body in loads.masses
+        )  # fmt: skip
+        cases.append(replace(case, loads=case.loads + pulls) if any((x, y, z)) else case)
+    return replace(loads, cases=tuple(cases))
 
 
 def cone_of(case: LoadCase, number: int, angle: float) -> tuple[LoadCase, ...]:

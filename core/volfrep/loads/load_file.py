@@ -27,6 +27,7 @@ from .load_cases import (
     Load,
     LoadCase,
     LoadCases,
+    Mass,
     Moment,
     Pressure,
     Support,
@@ -51,6 +52,7 @@ UNITS: dict[str, dict[str, float]] = {
     "moment": {"N mm": 1.0, "N m": 1e3, "kN m": 1e6, "lbf in": 112.9848290276167},
     "pressure": {"MPa": 1.0, "N/mm2": 1.0, "kPa": 1e-3, "Pa": 1e-6, "bar": 0.1,
                  "psi": 6.894757293168e-3},
+    "mass": {"g": 1.0, "kg": 1e3, "lb": 453.59237},
     "acceleration": {"mm/s2": 1.0, "m/s2": 1e3, "g": 9806.65},
 }  # fmt: skip
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
@@ -73,7 +75,8 @@ _LOADS = ("force", "moment", "pressure")
 _SUPPORT = ("name", *_REGION, "fixed", "x", "y", "z")
 _LOAD = ("name", *_REGION, *_LOADS, "at", "cone")
 _CASE = ("name", "acceleration", "support", "load")
-_FILE = ("material", "yield_stress", "support", "case")
+_MASS = ("name", *_REGION, "mass")
+_FILE = ("material", "yield_stress", "support", "mass", "case")
 
 
 def read_load_cases(path: str | os.PathLike[str], solid: TriangleMesh | None = None) -> LoadCases:
@@ -139,7 +142,19 @@ class _Reader:
             case for k, table in enumerate(tables, 1) for case in self._cases(table, common, k)
         ]
         with _at("the file"):
-            return LoadCases(material, tuple(cases))
+            return LoadCases(material, tuple(cases), self._masses(entries, where))
+
+    def _masses(self, entries: Mapping[str, Any], where: str) -> tuple[Mass, ...]:
+        found = []
+        for k, table in enumerate(_tables(entries, "mass", where), 1):
+            place = f"mass {k}"
+            _known(table, _MASS, place)
+            if "mass" not in table:
+                raise VolfrepError(f'{place}: it has no mass: give one, such as mass = "2 kg".')
+            grams = _quantity(table["mass"], "mass", f"{place}, mass")
+            with _at(place):
+                found.append(Mass(self._region(table, place), grams, _name(table, place, place)))
+        return tuple(found)
 
     def _material(self, entries: Mapping[str, Any], where: str) -> SolidMaterial:
         value = entries.get("material")

@@ -15,8 +15,8 @@ from ..design.cells import UnitCell
 from ..fem.beam_mesh import ends_law
 from ..fem.model import Case
 from ..grid.strut_graph import Graph, Wireframe
-from ..loads.load_cases import LoadCase
-from ..loads.nodal_loads import ROUNDING, Body, nodal_case
+from ..loads.load_cases import Force, LoadCase, Mass
+from ..loads.nodal_loads import ROUNDING, Body, nodal_case, share_of
 from ..loads.regions import AnyOf, Region, simple_regions
 from ..mechanics.frame import SQUARE_SECTION
 from ..mechanics.materials import SolidMaterial
@@ -132,6 +132,7 @@ def sizing_model(
     solid: TriangleMesh | None = None,
     domain: TriangleMesh | None = None,
     stays: Bools | None = None,
+    masses: Sequence[Mass] = (),
 ) -> SizingModel:
     """Struts, skin and loads as one structure.
 
@@ -149,6 +150,7 @@ def sizing_model(
         solid: the part, on which regions are looked up; needed with a skin.
         domain: closed mesh, outside of which struts have no volume; None where nothing cuts them.
         stays: (k,) bool, which struts of the wireframe the part has at all; None for all.
+        masses: of attached bodies.
 
     Raises:
         VolfrepError: nothing of the part lies where a load acts, or no strut hangs together.
@@ -227,6 +229,11 @@ def sizing_model(
         fixed[body_rows], loads[body_rows], moved[body_rows] = nodal.held, nodal.loads, nodal.moved
         x, y, z = nodal.acceleration.tolist()
         laid.append(Case(fixed, loads, moved if moved.any() else None, (x, y, z), nodal.name))
+    if masses:
+        own = _attached(masses, cases[0], body, solid if skin is not None else None)
+        attached = np.zeros(len(nodes))
+        attached[body_rows] = own
+        structure = replace(structure, attached=attached)
     problem = Problem(
         structure, tuple(laid), shape, np.full(count, least), largest, there, around=skin
     )
@@ -271,7 +278,9 @@ def with_sized_skin(
     first = np.clip(np.sqrt(wanted(points)), least, most)
     whole = np.concatenate([problem.low, first])
     structure = problem.structure
-    structure = Structure(structure.nodes, structure.beams, structure.ties, varied.blocks(whole))
+    structure = Structure(
+        structure.nodes, structure.beams, structure.ties, varied.blocks(whole), structure.attached
+    )
     smoother = problem.smoother
     if smoother is not None:
         smoother = csr_matrix(block_diag([smoother, identity(len(points))]))
@@ -287,6 +296,23 @@ def with_sized_skin(
             alike = mirrors.groups(points, _IMAGES)[0]
         problem = problem.alike(np.concatenate([nodes, nodes.max() + 1 + alike]))
     return replace(model, problem=problem), problem.most_alike(whole)[len(whole) - len(first) :]
+
+
+def _attached(
+    masses: Sequence[Mass], case: LoadCase, body: Body, solid: TriangleMesh | None
+) -> Floats:
+    """(n,) t, what of attached bodies moves with each node of a body."""
+    acting = tuple(Force(one.region, (1.0, 0.0, 0.0), name=one.name) for one in masses)
+    laid = replace(case, name="attached bodies", loads=acting)
+    loads = (laid if solid is None else _on_skin(laid, solid, body)).loads
+    result = np.zeros(len(body.nodes))
+    for one, load in zip(masses, loads, strict=True):
+        try:
+            share = share_of(body, load.region)
+        except VolfrepError as error:
+            raise VolfrepError(f"Mass '{one.name}': {error}") from error
+        result[share.nodes] += 1e-6 * one.mass * share.weights
+    return result
 
 
 def _hanging_together(frame: Wireframe, on_wall: Bools | None) -> Bools:

@@ -189,13 +189,18 @@ def prove_design(
             _on_solid(solid, len(deck.nodes), held, loads, moved)
         x, y, z = case.acceleration
         cases.append(Case(held, loads, moved if moved.any() else None, (x, y, z)))
+    attached = None
+    if problem.structure.attached is not None:
+        attached = np.zeros(total)
+        attached[place[there]] = problem.structure.attached[there]
     modes = 3 if "frequency" in final.uses else 0
     # What is moved is no load.
     expected = None
     if all(case.moved is None for case in cases):
         expected = np.where(np.isfinite(final.factors), final.factors, np.nan)
     found = solve_frame(
-        deck, material.for_solver(), cases, skin=solid, more_nodes=more, modes=modes,
+        deck, material.for_solver(), cases, skin=solid, more_nodes=more, attached=attached,
+        modes=modes,
         expected=expected, monitor=monitor,
     )  # fmt: skip
     mine = final.displacements[:, :3][there]

@@ -70,12 +70,14 @@ class Structure:
         beams: the struts.
         ties: nodes that follow others.
         fixed_blocks: of a skin; None for none.
+        attached: (n,) t, of bodies that move with the nodes; None for none.
     """
 
     nodes: Floats
     beams: Beams
     ties: Ties = NO_TIES
     fixed_blocks: Blocks | None = None
+    attached: Floats | None = None
     _pattern: BlockPattern = field(init=False, repr=False)
     _tied: Bools = field(init=False, repr=False)
     _ends: tuple[Ints, Floats] = field(init=False, repr=False)
@@ -233,7 +235,12 @@ class Structure:
             VolfrepError: a part of the structure can move without resistance.
         """
         factor = factor or self.factored(radii, held)
-        mass = mask_fixed(self.mass(radii), factor.free, 0.0)
+        whole = self.mass(radii)
+        if self.attached is not None:
+            own = np.zeros((len(self.nodes), 6))
+            own[:, :3] = self.attached[:, None]
+            whole = sparse.csc_matrix(whole + sparse.diags(self._pattern.ordered(own)))
+        mass = mask_fixed(whole, factor.free, 0.0)
         size = mass.shape[0]
         inverse = LinearOperator((size, size), lambda b: factor.solve(np.asarray(b, float)))
         start = np.where(factor.free, np.cos(np.arange(size)), 0.0)

@@ -110,6 +110,7 @@ def part_model(
         wireframe, clipped, spec.kind.cube, infill.filling.spacing, material, loads.cases,
         bounds=(least, most), borne=bears.own, skin=skin, solid=infill.solid,
         domain=infill.domain.mesh if infill.placement.is_cut else None, stays=infill.staying,
+        masses=loads.masses,
     )  # fmt: skip
     if goal.smooth:
         smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...design.parameters.specification import values_of
 from ...design.spec import LatticeSpec
-from ...loads.load_cases import LoadCases
+from ...loads.load_cases import LoadCases, with_weights
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.sizing_report import sizing_report
 from ...sizing.analysis import Analysis, Limits, Problem, analyse
@@ -127,6 +127,7 @@ def size(
         Cancelled: the callback said so before there was a design.
     """
     monitor, cache = monitor or Monitor(progress), cache or StageCache()
+    loads = with_weights(loads)
     start = time.perf_counter()
     task = _prepare(solid, spec, loads, _checked(goal or Goal()), monitor, cache, progress)
     seconds = {"model": time.perf_counter() - start}
@@ -483,6 +484,7 @@ def solve_struts(
     radii = np.zeros(len(frame.nodes))
     radii[frame.struts] = frame.radii
     used = radii[radii > 0.0]
+    loads = with_weights(loads)
     goal = Goal(thinnest=0.999 * float(used.min()), thickest=1.001 * float(used.max()))
     model = part_model(infill, loads, goal, cache)
     return model, analyse(model.problem, np.maximum(radii, goal.thinnest or 0.0), Limits())[0]

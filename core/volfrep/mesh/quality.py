@@ -19,7 +19,7 @@ from ..util.errors import VolfrepError
 from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import threads
-from .topology import edge_uses, touching, vertices_of
+from .topology import edge_uses, moved_vertices, touching
 from .triangle_mesh import TriangleMesh
 
 T = TypeVar("T")
@@ -229,8 +229,7 @@ def quality_after_moves(
     Returns:
         None where a shell may have been turned inside out.
     """
-    moved = np.flatnonzero((before.vertices != after.vertices).ravel()) // 3
-    rows = np.flatnonzero(touching(vertices_of(moved, len(before.vertices)), before.triangles))
+    rows = np.flatnonzero(touching(moved_vertices(before, after), before.triangles))
     if not len(rows):
         return replace(quality, bounds=bounds)
     used, local = np.unique(before.triangles[rows], return_inverse=True)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.precision import decimal_step, rounded
-from ..mesh.topology import edge_keys, pieces_of, touching
+from ..mesh.topology import edge_keys, moved_vertices, pieces_of, touching, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, triangle_boxes
 from ..util.linalg import cross_columns, normalize
 from ..util.progress import Monitor
@@ -130,7 +130,7 @@ def resolve_fold_crossings(
     if not deformed or len(pairs) <= MOST_PLACES:
         mesh, pairs = _drawn_apart(mesh, pairs, turns.among, SHARES, monitor)
     if mesh is not before:  # what moved may have met what lies anywhere
-        moved = (mesh.vertices != before.vertices).any(axis=1)
+        moved = moved_vertices(before, mesh)
         went = touching(moved, mesh.triangles)
         stay = turns.pairs[~went[turns.pairs].any(axis=1)]
         now = _crossing(mesh, about(mesh, went), monitor, moved)
@@ -216,9 +216,13 @@ class _Places:
             near[mesh.triangles[touching(near, corners.T)]] = True
         near[mesh.triangles[among]] = True
         inside = touching(near, corners.T)
-        free = np.ones(len(mesh.vertices), bool)
-        free[mesh.triangles[~inside]] = False
-        return cls(mesh, np.flatnonzero(inside), pairs, free, monitor)
+        rows = np.flatnonzero(inside)
+        # What else has a corner there holds that, and is little beside the rest of the mesh.
+        there = vertices_of(mesh.triangles[rows], len(near))
+        ring = touching(there, corners.T) & ~inside
+        return cls(
+            mesh, rows, pairs, there & ~vertices_of(mesh.triangles[ring], len(near)), monitor
+        )
 
     @property
     def mesh(self) -> TriangleMesh:

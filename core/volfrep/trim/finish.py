@@ -20,7 +20,7 @@ from ..mesh.float32_repair import (
 )
 from ..mesh.precision import merging_vertices
 from ..mesh.quality import Quality, quality_after_moves, refuse_no_solid
-from ..mesh.topology import touching
+from ..mesh.topology import moved_vertices, touching
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.resolve_crossings import Turns, resolve_fold_crossings, turns_of
 from ..spatial.self_intersection import about, crossing_triangles
@@ -225,8 +225,8 @@ def _with_reached(
     if not changed.is_joined:
         return TrimmedSurface(surface.whole(monitor))
     vertices, triangles = changed.mesh.vertices, changed.mesh.triangles
-    moved = (vertices != surface.mesh.vertices).any(axis=1)
-    reached = surface.octants.reached(vertices[triangles[touching(moved, triangles)]])
+    went = touching(moved_vertices(surface.mesh, changed.mesh), triangles)
+    reached = surface.octants.reached(vertices[triangles[went]])
     return surface.with_octants(reached, monitor) if reached.any() else changed
 
 

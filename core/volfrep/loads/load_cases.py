@@ -136,22 +136,30 @@ class LoadCase:
         loads: on regions.
         acceleration: mm/s2: what pulls at every piece of the part by its mass, as gravity does, so
             (0, 0, -9810) where z is up.
+        expansion: the strain by which an even change of temperature makes the part larger where
+            nothing holds it.
     """
 
     name: str
     supports: tuple[Support, ...]
     loads: tuple[Load, ...] = ()
     acceleration: Vector = (0.0, 0.0, 0.0)
+    expansion: float = 0.0
 
     def __post_init__(self) -> None:
         _check(f"acceleration of '{self.name}'", self.acceleration)
+        if not abs(self.expansion) < 0.1:
+            raise VolfrepError(
+                f"A strain of {self.expansion:g} by the temperature of '{self.name}' makes no "
+                "sense: it is the coefficient of expansion, such as 9e-6, times degrees."
+            )
         if not self.supports:
             raise VolfrepError(f"The load case '{self.name}' has no support: the part would fly.")
         moved = any(value for support in self.supports for value in support.displacement)
-        if not (self.loads or any(self.acceleration) or moved):
+        if not (self.loads or any(self.acceleration) or moved or self.expansion):
             raise VolfrepError(
                 f"The load case '{self.name}' has no load: give a force, a moment, a pressure, an "
-                "acceleration or a displacement."
+                "acceleration, a displacement or a temperature."
             )
 
 

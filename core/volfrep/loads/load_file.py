@@ -74,9 +74,9 @@ _OPTIONAL = {"length"}
 _LOADS = ("force", "moment", "pressure")
 _SUPPORT = ("name", *_REGION, "fixed", "x", "y", "z")
 _LOAD = ("name", *_REGION, *_LOADS, "at", "cone")
-_CASE = ("name", "acceleration", "support", "load")
+_CASE = ("name", "acceleration", "temperature", "support", "load")
 _MASS = ("name", *_REGION, "mass")
-_FILE = ("material", "yield_stress", "support", "mass", "case")
+_FILE = ("material", "yield_stress", "expansion", "support", "mass", "case")
 
 
 def read_load_cases(path: str | os.PathLike[str], solid: TriangleMesh | None = None) -> LoadCases:
@@ -129,11 +129,14 @@ class _Reader:
     def __init__(self, folder: Path, solid: TriangleMesh | None) -> None:
         self.folder, self.solid = folder, solid
         self._numbers: Ints | None = None
+        self.expansion: float | None = None
 
     def cases(self, entries: Mapping[str, Any]) -> LoadCases:
         where = "the file"
         _known(entries, _FILE, where)
         material = self._material(entries, where)
+        if "expansion" in entries:
+            self.expansion = _number(entries["expansion"], "expansion")
         common = self._supports(entries, where)
         tables = _tables(entries, "case", where)
         if not tables:
@@ -192,6 +195,7 @@ class _Reader:
         pull = (0.0, 0.0, 0.0)
         if "acceleration" in table:
             pull = _vector(table["acceleration"], "acceleration", f"{where}, acceleration")
+        strain = self._strain(table, where)
         own = self._supports(table, where)
         cones = [
             (j, load["cone"]) for j, load in enumerate(_tables(table, "load", where))
@@ -200,12 +204,23 @@ class _Reader:
         if len(cones) > 1:
             raise VolfrepError(f"{where}: {len(cones)} loads have a cone: give it to one.")
         with _at(where):
-            case = LoadCase(name, common + own, loads, pull)
+            case = LoadCase(name, common + own, loads, pull, strain)
             for j, angle in cones:
                 if isinstance(angle, bool) or not isinstance(angle, (int, float)):
                     raise VolfrepError(f"{where}, cone: {angle!r} is no number of degrees.")
                 return cone_of(case, j, float(angle))
             return (case,)
+
+    def _strain(self, table: Mapping[str, Any], where: str) -> float:
+        """By which a case's temperature makes the part larger."""
+        if "temperature" not in table:
+            return 0.0
+        if self.expansion is None:
+            raise VolfrepError(
+                f"{where}, temperature: the file needs the material's expansion, such as "
+                "expansion = 9e-6 a degree, before the first [[case]]."
+            )
+        return self.expansion * _number(table["temperature"], f"{where}, temperature")
 
     def _supports(self, table: Mapping[str, Any], where: str) -> tuple[Support, ...]:
         return tuple(
@@ -361,6 +376,12 @@ def _vector(value: Any, kind: str, where: str) -> Vector:
         )
     x, y, z = (_quantity(item, kind, where) for item in value)
     return x, y, z
+
+
+def _number(value: Any, where: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise VolfrepError(f"{where}: {value!r} is no number.")
+    return float(value)
 
 
 def _quantity(value: Any, kind: str, where: str) -> float:

@@ -92,11 +92,17 @@ class NodalCase:
 def nodal_case(body: Body, case: LoadCase) -> NodalCase:
     """Lay a load case on the nodes of a body.
 
+    What expands evenly is solved as what does not, whose supports move the other way: stresses are
+    the same, and displacements are those beside free expansion about the middle of the body.
+
     Raises:
         VolfrepError: nothing of the body lies in a region, a load cannot act there, or two supports
             contradict each other.
     """
     held, moved = _held(body, case)
+    if case.expansion:
+        middle = 0.5 * (body.nodes.min(axis=0) + body.nodes.max(axis=0))
+        moved[:, :3] -= np.where(held[:, :3], case.expansion * (body.nodes - middle), 0.0)
     loads = np.zeros((len(body.nodes), 6))
     for load in case.loads:
         try:

@@ -47,6 +47,9 @@ def sizing_report(
             where none was.
     """
     problem, final, density = model.problem, sized.analysis, loads.material.density
+    # What supports alone strain is not more or less stiff.
+    works = np.abs(final.compliance) > 0.0
+    gains = (before.compliance[works] / final.compliance[works]).tolist()
     result: dict[str, Any] = {
         "material": loads.material.as_dict(),
         "struts": len(problem.structure.beams.struts),
@@ -61,10 +64,8 @@ def sizing_report(
         "cases": [_case(model, before, final, k) for k in range(len(problem.cases))],
         "same_mass": {
             "radius_mm": float(before.radii.mean()),
-            "stiffer": (before.compliance / final.compliance).tolist(),
-            "stiffer_at_least": [
-                least_gain(gain) for gain in (before.compliance / final.compliance).tolist()
-            ],
+            "stiffer": gains,
+            "stiffer_at_least": [least_gain(gain) for gain in gains],
             "less_stress": float(before.stress.max() / final.stress.max()),
         },
         "stopped": sized.stopped,
@@ -159,14 +160,13 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
             )
         )
     same = report["same_mass"]
-    rows.append(
-        (
-            "same mass",
+    told = f"one radius of {same['radius_mm']:.3g} mm"
+    if same["stiffer"]:
+        told = (
             f"{min(same['stiffer_at_least']):.2f} to {min(same['stiffer']):.2f} times as stiff as "
-            f"one radius of {same['radius_mm']:.3g} mm (beams say the most, solids may say the "
-            f"least), {_share_of_stress(same['less_stress'])}",
+            f"{told} (beams say the most, solids may say the least)"
         )
-    )
+    rows.append(("same mass", f"{told}, {_share_of_stress(same['less_stress'])}"))
     if "same_limits" in report:
         even = report["same_limits"]
         what = "holds the same limits" if even["holds"] else "does not even hold the limits"

@@ -9,8 +9,10 @@ import numpy as np
 
 from ...design.spec import LatticeSpec
 from ...fem.beam_mesh import MEASURED_TO
+from ...loads.load_cases import LoadCase
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel
+from ...util.errors import VolfrepError
 from ...util.peaks import PEAKS
 from ...util.types import Floats
 from ..infill import Infill
@@ -111,6 +113,23 @@ def left_out(spec: LatticeSpec) -> list[str]:
         "Bodies that are kept solid are not in the model that was sized: look at the struts round "
         "them with solid elements."
     ]
+
+
+def hot(cases: Sequence[LoadCase], limits: Limits) -> list[str]:
+    """A sentence on displacements where a case has a temperature.
+
+    Raises:
+        VolfrepError: displacements are limited then.
+    """
+    names = [case.name for case in cases if case.expansion]
+    if not names:
+        return []
+    if limits.displacement is not None:
+        raise VolfrepError(
+            f"Displacements are told beside free expansion, and case '{names[0]}' has a "
+            "temperature: leave out the limit of displacement, or the temperature."
+        )
+    return [f"Displacements in case '{name}' are told beside free expansion." for name in names]
 
 
 def small_dimples(model: SizingModel, limits: Limits) -> list[str]:

@@ -36,6 +36,7 @@ from .goal import Goal
 from .notes import (
     free_motions,
     hardly_beams,
+    hot,
     left_out,
     limit_not_held,
     not_confirmed,
@@ -216,7 +217,7 @@ def _prepare(
     progress: ProgressCallback | None,
 ) -> _Task:
     """The part's struts and skin as elements, their supports and loads."""
-    notes: list[str] = []
+    notes = hot(loads.cases, goal.limits)
     spec = _without_target(solid, spec, goal, cache, progress, notes)
     # All are sized; which go is decided anew.
     spec = replace(lattice_kind(spec).with_fixed_struts(), remove_below=0.0)

@@ -267,7 +267,7 @@ def _size(bench: Evaluator) -> dict[str, Figure]:
         "thinnest_mm": _rounded(report["radii_mm"][0]),
         "thickest_mm": _rounded(report["radii_mm"][1]),
         **_carried(made.sized.analysis, [case.name for case in loads.cases]),
-        "stiffer": _rounded(min(report["same_mass"]["stiffer"])),
+        "stiffer": _rounded(min(report["same_mass"]["stiffer"], default=1.0)),
     }
     if "same_limits" in report:
         told["mass_saved"] = _rounded(report["same_limits"]["mass_saved"])

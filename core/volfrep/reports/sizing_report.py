@@ -151,11 +151,18 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         for case in report["cases"]
     ]
     if "removed" in report:
-        whole = report["removed"]["with_them"]
+        whole, places = report["removed"]["with_them"], report["removed"].get("places", [])
+        where = ""
+        if places:
+            x, y, z = places[0]["middle_mm"]
+            where = (
+                f" in {len(places)} places, {places[0]['struts']:,} about ({x:.4g}, {y:.4g}, "
+                f"{z:.4g})"
+            )
         rows.append(
             (
                 "removed",
-                f"{report['removed']['struts']:,} thin struts; with them "
+                f"{report['removed']['struts']:,} thin struts{where}; with them "
                 f"{whole['strut_mass_g']:.4g} g and {max(whole['displacement_mm']):.4g} mm",
             )
         )

@@ -303,7 +303,7 @@ def thicken(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, 
     radii = problem.most_alike(radii)
     low = replace(problem, low=np.maximum(problem.low, radii))
     found = analyse(low, radii, limits)[0]
-    for _ in range(_THICKENINGS if problem.skin is None else 3 * _THICKENINGS):
+    for _ in range(_THICKENINGS if problem.around is None else 3 * _THICKENINGS):
         if found.most_used <= 1.0:
             return found, True
         found, changes = analyse(low, found.radii, limits, with_changes=True)

@@ -123,6 +123,9 @@ def test_thin_struts_that_carry_little_are_taken_away(part: Path, tmp_path: Path
     made = told["part"]
     assert gone == made["thin_struts_removed"] + made["struts_dangling_removed"]
     assert made["thin_struts_removed"] > 0
+    places = told["sizing"]["removed"]["places"]
+    assert sum(place["struts"] for place in places) == gone
+    assert places[0]["middle_mm"][0] > 20.0
     assert made["struts"] == told["sizing"]["struts"]
     assert (made["bodies"], made["watertight"]) == (1, True)
     assert told["sizing"]["holds"]

@@ -10,6 +10,7 @@ thicker than the limit, whatever the rest is sized to.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -19,7 +20,9 @@ from ...design.profile import Profile
 from ...design.scattered_field import PointField
 from ...design.spec import LatticeSpec
 from ...grid.placement import NUDGE
+from ...grid.strut_graph import Wireframe
 from ...loads.load_cases import LoadCases
+from ...mesh.topology import pieces_of
 from ...sizing.analysis import Analysis, Problem
 from ...sizing.model import SizingModel
 from ...util.cache import StageCache
@@ -36,6 +39,8 @@ SLACK = (0.5, 0.25)
 THIN = 1.02
 #: All others are at least so many times as thick as that.
 _THICKER = 1.0001
+#: Struts whose middles lie no farther apart, mm, are the same.
+_SAME = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +54,7 @@ class Thinned:
         rows: (k,) which of these nodes are left.
         model: what is solved; thin nodes stay as they are, no other becomes one.
         struts: how many went.
+        places: where, the one with most struts first: how many, their middle and box, mm.
     """
 
     spec: LatticeSpec
@@ -57,6 +63,7 @@ class Thinned:
     rows: Ints
     model: SizingModel
     struts: int
+    places: list[dict[str, Any]]
 
     def of_all(self, radii: Floats) -> Floats:
         """(n,) radii at all nodes, with (k,) at those that are left."""
@@ -123,7 +130,28 @@ def without_thin_struts(
     low = np.where(is_thin, kept[rows], np.minimum(_THICKER * limit, high))
     high = np.where(is_thin, kept[rows], high)
     left = replace(left, problem=replace(left.problem, low=low, high=high))
-    return Thinned(smaller, points, kept, rows, left, gone)
+    places = empty_places(infill.struts, part.struts)
+    return Thinned(smaller, points, kept, rows, left, gone, places)
+
+
+def empty_places(before: Wireframe, after: Wireframe) -> list[dict[str, Any]]:
+    """Where a lattice has struts that another one has not: those that hang together are a place."""
+    ends = before.nodes[before.struts]
+    left = after.nodes[after.struts].mean(axis=1)
+    gone = np.flatnonzero(cKDTree(left).query(ends.mean(axis=1))[0] > _SAME)
+    struts = before.struts[gone].astype(np.int64)
+    piece = pieces_of(struts[:, 0], struts[:, 1], len(before.nodes))[1][struts[:, 0]]
+    found = []
+    for number in np.unique(piece):
+        there = ends[gone[piece == number]]
+        found.append(
+            {
+                "struts": len(there),
+                "middle_mm": there.mean(axis=(0, 1)).tolist(),
+                "box_mm": [there.min(axis=(0, 1)).tolist(), there.max(axis=(0, 1)).tolist()],
+            }
+        )
+    return sorted(found, key=lambda place: -place["struts"])
 
 
 def field_points(infill: Infill, model: SizingModel) -> Floats:

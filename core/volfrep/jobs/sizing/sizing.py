@@ -430,6 +430,8 @@ def _record(
         seconds=seconds, notes=tuple(task.notes),
         unthinned=None if taken is None else (search.whole.analysis, taken.struts),
     )  # fmt: skip
+    if taken is not None:
+        report["removed"]["places"] = taken.places
     if search.any_radii is not None:
         report["radius_list"] = _told_list(task.goal.radius_list, search)
     if task.skin is not None:

@@ -121,6 +121,11 @@ def open_sections(obj):
     """Section View by its button, the menu, the context menu of the tree, and its shortcut."""
     select(obj)
     click(toolbar_button("Section View"))
+    label, obj.Label = obj.Label, "Another name"
+    titles = ["Section of Another name"]
+    check("its title follows the object's", wait_until(
+        lambda: [dock.windowTitle() for dock in section_docks()] == titles))  # fmt: skip
+    obj.Label = label
     one_opens("by its button")
     click_menu("VOLFREP", "Section View")
     one_opens("by the menu")

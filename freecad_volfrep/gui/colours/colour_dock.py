@@ -120,8 +120,7 @@ class ColourDock(ObjectDock):
     NAME = "VolfrepColourBy"
 
     def __init__(self, obj: App.DocumentObject, colours: MeshColours | StrutColours) -> None:
-        title = translate("VolfrepColours", "Colours of {label}").format(label=obj.Label)
-        super().__init__(obj, title)
+        super().__init__(obj, translate("VolfrepColours", "Colours of {label}"))
         self._colours = colours
         self._quantity, self._case = QtWidgets.QComboBox(), QtWidgets.QComboBox()
         for name, text in colours.quantities.items():
@@ -182,6 +181,7 @@ class ColourDock(ObjectDock):
 
     def slotChangedObject(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
         """Called by FreeCAD: the struts of a new mesh are others."""
+        super().slotChangedObject(obj, name)
         if obj == self._obj and name == "Mesh" and self._colours.is_of_mesh:
             self.close_later()
 

@@ -106,8 +106,7 @@ class SectionDock(ObjectDock):
     NAME = "VolfrepSectionView"
 
     def __init__(self, obj: App.DocumentObject, preview: PreviewView | None = None) -> None:
-        title = translate("VolfrepSectionView", "Section of {label}").format(label=obj.Label)
-        super().__init__(obj, title)
+        super().__init__(obj, translate("VolfrepSectionView", "Section of {label}"))
         self._preview = preview
         self._section: Section | None = Section(obj, preview)
         self._axis = QtWidgets.QComboBox()
@@ -155,6 +154,7 @@ class SectionDock(ObjectDock):
 
     def slotChangedObject(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
         """Called by FreeCAD: the plane stays where it is while a new mesh may be larger."""
+        super().slotChangedObject(obj, name)
         if obj == self._obj and name == "Mesh":
             self._offset.setRange(*self._extent())
             self._cut()

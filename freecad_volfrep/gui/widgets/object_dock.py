@@ -20,7 +20,7 @@ class ObjectDock(QtWidgets.QDockWidget):
 
     Args:
         obj: the object.
-        title: of the dock.
+        title: of the dock, with the object's ``{label}``.
     """
 
     NAME = ""
@@ -29,10 +29,13 @@ class ObjectDock(QtWidgets.QDockWidget):
         super().__init__(Gui.getMainWindow())
         self.setObjectName(self.NAME)
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
-        self.setWindowTitle(title)
-        self._obj, self._doc = obj, obj.Document
+        self._obj, self._doc, self._title = obj, obj.Document, title
+        self._entitle()
         #: From `put_up` on, which is before Qt shows it.
         self.is_up = False
+
+    def _entitle(self) -> None:
+        self.setWindowTitle(self._title.format(label=self._obj.Label))
 
     def set_line(self, widgets: Iterable[Any]) -> Any:
         """Fill it with a line of widgets and a button that closes; returns the column of both.
@@ -76,6 +79,11 @@ class ObjectDock(QtWidgets.QDockWidget):
         App.removeDocumentObserver(self)
         self.take_away()
         super().closeEvent(event)
+
+    def slotChangedObject(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
+        """Called by FreeCAD: its title follows the object's."""
+        if obj == self._obj and name == "Label":
+            self._entitle()
 
     def slotDeletedObject(self, obj: App.DocumentObject) -> None:  # noqa: N802
         """Called by FreeCAD: there is nothing to show any more."""

@@ -31,6 +31,8 @@ ON_OPENING = 1e-7
 #: A facet lies along a plane or a patch when the cosine of the angle between them is above this.
 ALONG_PLANE = 0.999
 ALONG_PATCH = 0.9
+#: The box about a patch is wider than what is near by this, for rounding.
+BOX_ROOM = 1.01
 #: More places than this, or automatic holes for one void, are a mistake.
 MOST_HOLES = 100
 
@@ -84,16 +86,24 @@ class OpenPatch:
             self.corners.reshape(-1, 3),
             np.arange(3 * len(self.corners), dtype=np.int32).reshape(-1, 3),
         )
-        size = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
-        corners = np.stack(solid.corners(), axis=1)
+        reach = NEAR_PATCH * float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
+        # A patch is a small part of a solid: what lies outside of its box is not asked further.
+        low, high = patch.bounds
+        beyond = np.maximum(low - solid.vertices, solid.vertices - high).max(axis=1)
+        result = (beyond < BOX_ROOM * reach)[solid.triangles].all(axis=1)
+        some = TriangleMesh(solid.vertices, solid.triangles[result])
+        if not len(some.triangles):
+            return np.asarray(result)
+        corners = np.stack(some.corners(), axis=1)
         points = np.concatenate([corners, corners.mean(axis=1)[:, None]], axis=1)
         from ..spatial.proximity import closest_points  # slow to import, and most jobs open no face
 
         _, distance, facet = closest_points(patch, points.reshape(-1, 3))
-        near = (distance.reshape(-1, 4) < NEAR_PATCH * size).all(axis=1)
+        near = (distance.reshape(-1, 4) < reach).all(axis=1)
         towards = _normals(patch)[facet.reshape(-1, 4)[:, 3]]
-        along = np.einsum("ij,ij->i", _normals(solid), towards) > ALONG_PATCH
-        return np.asarray(near & along)
+        along = np.einsum("ij,ij->i", _normals(some), towards) > ALONG_PATCH
+        result[result] = near & along
+        return np.asarray(result)
 
     def identity(self) -> tuple[Floats, int]:
         """What counts of it for `util.content.digest_of`: corners, and how many facets there are.

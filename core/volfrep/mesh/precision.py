@@ -10,11 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..util.errors import VolfrepError
+from ..util.threads import in_threads
 from ..util.types import Ints
 from .triangle_mesh import TriangleMesh
 
 #: Triangles or points looked at, or lines of text made, in one step (bounds the memory).
 BLOCK_ROWS = 1 << 16
+#: Numbers of many points are sorted in so many shares, on all threads.
+KEY_SHARES = 4
 
 
 def single_precision(mesh: TriangleMesh, path: str | os.PathLike[str]) -> NDArray[np.float32]:
@@ -101,8 +104,8 @@ def _twins(rows: Callable[[slice | Ints], NDArray[np.float32]], size: int) -> In
     """Indices of the points that share all their coordinates with another one, twins together."""
     # Sorted by their hashes, which are made twice rather than held beside their order.
     key = _hashes(rows, size)
-    key.sort()
-    shared_keys = key[1:][key[1:] == key[:-1]]
+    shares = range(KEY_SHARES if size > BLOCK_ROWS else 1)
+    shared_keys = np.concatenate(list(in_threads(lambda k: _repeated(key, k, len(shares)), shares)))
     if not len(shared_keys):
         return np.zeros(0, np.int64)
     index = np.flatnonzero(np.isin(_hashes(rows, size), shared_keys))
@@ -114,6 +117,14 @@ def _twins(rows: Callable[[slice | Ints], NDArray[np.float32]], size: int) -> In
     shared = count[inverse] > 1
     twins: Ints = index[shared][np.argsort(inverse[shared], kind="stable")]
     return twins
+
+
+def _repeated(key: NDArray[np.uint64], share: int, shares: int) -> NDArray[np.uint64]:
+    """The numbers that occur more than once, of those that leave `share` when divided."""
+    some = key[key % np.uint64(shares) == np.uint64(share)] if shares > 1 else key
+    some.sort()
+    repeated: NDArray[np.uint64] = some[1:][some[1:] == some[:-1]]
+    return repeated
 
 
 def _hashes(rows: Callable[[slice | Ints], NDArray[np.float32]], count: int) -> NDArray[np.uint64]:

@@ -370,9 +370,9 @@ def sized(folder: str) -> None:
     bracket = read_solid(modelled_file("bracket", root / "build" / "parts"))
     wide = (1400, 900)
     loads = read_load_cases(Path(__file__).with_name("bracket_loads.toml"), bracket)
-    spec = LatticeSpec("CVC", cell_size=15, strut_radius=1.5, shell=3)
+    spec = LatticeSpec("CVC", cell_size=15, strut_radius=1.5, shell=1.5)
     assert loads.material.yield_stress is not None
-    goal = Goal(Limits(stress=loads.material.yield_stress / 1.5), thinnest=0.75)
+    goal = Goal(Limits(stress=loads.material.yield_stress / 1.5), thinnest=0.5, skin_thinnest=0.8)
     made = size(bracket, spec, loads, goal)
     for name, value in made.report.items():
         if name != "steps":
@@ -383,6 +383,9 @@ def sized(folder: str) -> None:
     file = out / "sized_bracket.png"
     sizing_picture(made.model, one, file, size=wide, y_up=True)
     _smaller(Image.open(file), 2).save(file, optimize=True)
+    skin = out / "sized_bracket_skin.png"
+    sizing_picture(made.model, one, skin, colour="skin", size=wide, y_up=True)
+    _smaller(Image.open(skin), 2).save(skin, optimize=True)
     sheet = Image.new("RGB", (wide[0], 2 * wide[1]), "white")
     for row, design in enumerate((made.before, one)):
         sizing_picture(

@@ -477,12 +477,13 @@ RUN_OPTIONS = (
         "plot", ("size",), "draw mass and limits, step by step", "FILE.svg", writes="plot",
     ),
     RunOption(
-        "picture", ("size",), "the struts in colour (needs pyvista)",
+        "picture", ("size",), "struts or skin in colour (needs pyvista)",
         "FILE.png", SIZED_PICTURE_GROUP, writes="picture",
     ),
     RunOption(
-        "colour", ("size",), "what the colour tells (default radius)",
-        "WORD", SIZED_PICTURE_GROUP, choices=("radius", "stress", "buckling", "displacement"),
+        "colour", ("size",), "what the colour tells (default radius); skin: its thickness",
+        "WORD", SIZED_PICTURE_GROUP,
+        choices=("radius", "stress", "buckling", "displacement", "skin"),
     ),
     RunOption(
         "case", ("size",), "of which load case (default: the first)", "NAME", SIZED_PICTURE_GROUP,

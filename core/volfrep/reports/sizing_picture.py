@@ -9,6 +9,7 @@ import numpy as np
 
 from ..sizing.analysis import Analysis
 from ..sizing.model import SizingModel
+from ..util.errors import VolfrepError
 from ..util.types import Floats, Ints
 from .picture import SIZE, new_stage, show_stage
 
@@ -18,6 +19,7 @@ COLOURS = {
     "stress": "von Mises stress, MPa",
     "buckling": "share of the buckling load",
     "displacement": "displacement, mm",
+    "skin": "thickness of the skin, mm",
 }
 #: Sides of a drawn strut, and rings along it.
 _SIDES, _RINGS = 10, 5
@@ -39,6 +41,8 @@ def sizing_picture(
 ) -> None:
     """Draw the struts of a design into a PNG, or show them in a window; a skin is transparent.
 
+    In the colour ``skin`` it is not, and hides the struts.
+
     Args:
         model: what was solved.
         analysis: the design.
@@ -52,8 +56,10 @@ def sizing_picture(
             least and the largest that there are.
 
     Raises:
-        VolfrepError: pyvista is missing, or the file cannot be written.
+        VolfrepError: pyvista is missing, the file cannot be written, or there is no skin to colour.
     """
+    if colour == "skin" and model.skin is None:
+        raise VolfrepError("The part has no skin to show in colours: choose another colour.")
     stage = new_stage(file, size)
     import pyvista
 
@@ -61,10 +67,18 @@ def sizing_picture(
     struts = problem.structure.beams.struts
     nodes = problem.structure.nodes + deformed * analysis.displacements[:, :3, case]
     of_struts = problem.radii.of_struts(analysis.radii)
-    values = _values(model, analysis, colour, case, of_struts)
-    points, facets, shades = tubes(nodes, struts, of_struts, values)
-    surface = pyvista.PolyData.from_regular_faces(points, facets)
-    surface.point_data[COLOURS[colour]] = shades
+    if colour == "skin" and model.skin is not None:
+        shift = deformed * analysis.displacements[model.frame_nodes :, :3, case]
+        shells = model.skin.shells
+        surface = pyvista.PolyData.from_regular_faces(
+            model.skin.outside.vertices + shift, shells.triangles
+        )
+        surface.cell_data[COLOURS[colour]] = shells.thickness
+    else:
+        values = _values(model, analysis, colour, case, of_struts)
+        points, facets, shades = tubes(nodes, struts, of_struts, values)
+        surface = pyvista.PolyData.from_regular_faces(points, facets)
+        surface.point_data[COLOURS[colour]] = shades
     stage.add_mesh(
         surface, scalars=COLOURS[colour], cmap=_COLOURS, clim=scale, smooth_shading=True,
         ambient=0.35, diffuse=0.65,
@@ -73,7 +87,7 @@ def sizing_picture(
             "position_x": 0.88, "position_y": 0.25, "height": 0.5, "fmt": "%.3g",
         },
     )  # fmt: skip
-    if model.skin is not None:
+    if model.skin is not None and colour != "skin":
         shift = deformed * analysis.displacements[model.frame_nodes :, :3, case]
         outside = model.skin.outside
         skin = pyvista.PolyData.from_regular_faces(outside.vertices + shift, outside.triangles)

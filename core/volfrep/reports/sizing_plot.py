@@ -38,7 +38,7 @@ def write_sizing_plot(report: Mapping[str, Any], path: str | os.PathLike[str]) -
 
 
 def sizing_plot(report: Mapping[str, Any]) -> str:
-    """The steps of a sizing report as SVG: the struts' mass, and the use of every limit.
+    """The steps of a sizing report as SVG: the mass of what is sized, and the use of every limit.
 
     Without limits, the work of the loads. A step's mass is that with which it holds the limits, as
     far as one factor for all radii can tell (`volfrep.sizing.optimise.Step`).
@@ -50,7 +50,8 @@ def sizing_plot(report: Mapping[str, Any]) -> str:
     density = report["strut_mass_g"] / report["strut_volume_mm3"]
     names = list(steps[0]["uses"])
     if names:
-        first = "mass of the struts, g", [step["strut_volume_mm3"] * density for step in steps]
+        what = "struts and skin" if "skin" in report else "the struts"
+        first = f"mass of {what}, g", [step["strut_volume_mm3"] * density for step in steps]
     else:
         first = "work of the loads, N mm", [step["compliance"] for step in steps]
     uses = [(f"use of {name}, %", [100.0 * step["uses"][name] for step in steps]) for name in names]

@@ -10,6 +10,7 @@ from test_sizing import cantilever
 import samples
 import volfrep
 from volfrep.mechanics.materials import find_material
+from volfrep.reports.sizing_plot import sizing_plot
 from volfrep.sizing.analysis import Limits, analyse
 from volfrep.sizing.discrete_radii import of_list
 from volfrep.sizing.optimise import lightest, stiffest
@@ -138,6 +139,13 @@ def test_a_part_is_its_own_image_and_has_radii_of_the_list():
         made.report["strut_volume_mm3"] / told["any_radii_strut_volume_mm3"]
     )
     assert any(name == "radius list" for name, _ in made.rows())
+    # The last step tells of struts and skin together, and of all limits, as those before.
+    report = made.report
+    mass = report["strut_mass_g"] + report["skin_mass_g"]
+    last, first = report["steps"][-1], report["steps"][0]
+    assert last["strut_volume_mm3"] * report["material"]["density"] / 1e3 == pytest.approx(mass)
+    assert last["uses"].keys() == first["uses"].keys()
+    assert "mass of struts and skin" in sizing_plot(report)
 
 
 @pytest.mark.parametrize(

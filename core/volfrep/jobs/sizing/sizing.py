@@ -394,6 +394,8 @@ def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[st
         figures = {**proof.figures, "uses": proof.uses(limits, final)}
         if task.skin is not None:
             figures["skin_stress_mpa"] = list(proof.skin)
+            if limit is not None:
+                figures["uses"]["skin stress"] = max(proof.skin) / limit
     notes += hardly_beams(task.infill, model, final.radii, length)
     return replace(sized, analysis=final), figures
 
@@ -435,7 +437,7 @@ def _record(
     if search.any_radii is not None:
         report["radius_list"] = _told_list(task.goal.radius_list, search)
     if task.skin is not None:
-        report["skin_stress_mpa"] = skin_peaks(search.model, search.sized.analysis)
+        _with_skin(report, skin_peaks(search.model, search.sized.analysis), task, search.model)
         report["skin"] = {
             **thickness_there(search.model, task.infill.domain.mesh),
             "chosen_at": len(task.skin.sized.analysis.radii) - len(task.skin.radii),
@@ -443,6 +445,17 @@ def _record(
             "solid": solid_places(search.model, task.loads.material.density),
         }
     return SizedPart(graded, points, radii, search.model, search.sized, before, search.even, report)
+
+
+def _with_skin(report: dict[str, Any], peaks: list[float], task: _Task, model: SizingModel) -> None:
+    """Adds a sized skin to a report: steps and limits are of struts and skin together."""
+    report["skin_stress_mpa"] = peaks
+    last, limit = report["steps"][-1], task.goal.limits.stress
+    last["strut_volume_mm3"] += model.skin_volume
+    if limit is not None:
+        use = {"skin stress": max(peaks) / limit}
+        report["uses"] = {**report["uses"], **use}
+        last["uses"] = {**last["uses"], **use}
 
 
 def _told_list(radii: tuple[float, ...], search: _Search) -> dict[str, Any]:

@@ -142,6 +142,20 @@ def test_a_structure_that_is_not_held_is_refused():
         tip(structure, np.zeros_like(held), np.ones((1, 2)), across)
 
 
+def test_a_strut_of_next_to_no_length_leaves_a_cantilever_as_it_is():
+    """Its rows are 1e25 times as stiff as others: what rounding leaves there is no free motion."""
+    whole, held, axis, across = chain(parts=2)
+    nodes = np.insert(whole.nodes, 1, whole.nodes[1] - 1e-8 * axis, axis=0)
+    stubby = Structure(nodes, beams_of(nodes, np.array([[0, 1], [1, 2], [2, 3]]), STEEL))
+    held = np.zeros((4, 6), bool)
+    held[0] = True
+    plain = Structure(whole.nodes, beams_of(whole.nodes, np.array([[0, 1], [1, 2]]), STEEL))
+    same = tip(plain, held[:3], np.ones((2, 2)), across)
+    assert tip(stubby, held, np.ones((3, 2)), across) == pytest.approx(same, rel=1e-3)
+    with pytest.raises(VolfrepError, match="move freely"):
+        tip(stubby, np.zeros_like(held), np.ones((3, 2)), across)
+
+
 def test_forces_and_stresses_of_a_cantilever():
     structure, held, axis, across = chain()
     radii = np.array([[2.0, 1.0]])

@@ -10,6 +10,7 @@ import dataclasses
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
+from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
     from ..jobs.coupons import Coupon
     from ..jobs.homogenised import HomogenisedPart
     from ..jobs.infill import Infill
+    from ..jobs.sizing import Printing
     from ..jobs.slicer_infill import SlicerInfill
     from ..jobs.slices import Layers
     from ..jobs.solving import Solved
@@ -173,6 +175,8 @@ def size(
     remove_thin: bool = False,
     radius_list: Sequence[float] = (),
     symmetry: str | None = None,
+    as_printed: str | None = None,
+    scatter: float = 0.0,
     unit: str | None = None,
     progress: ProgressCallback | bool | None = None,
     cache: StageCache | None = None,
@@ -193,6 +197,11 @@ def size(
         radius_list: the radii that nodes may have, mm, in place of bounds; empty for any.
         symmetry: planes under which radii and a sized skin are their own images, such as
             "x=0, z=2.5"; None for none.
+        as_printed: table of printed diameters, as `compensate` of `fill`: stress, stiffness and
+            mass are those of struts as they come out, and the part has them as they are drawn.
+            None takes struts as drawn. The print goes up along the parameter `build_direction`.
+        scatter: stress and buckling are those of struts thinner by so many standard deviations of
+            that table.
         unit: as of `fill`.
         progress: as of `fill`.
         cache: as of `fill`.
@@ -224,7 +233,7 @@ def size(
     True
     """
     from ..jobs.infill import Infill
-    from ..jobs.sizing import GOALS, goal_of, prove_file
+    from ..jobs.sizing import GOALS, check_file_proof, goal_of, prove_file
     from ..jobs.sizing import size as size_struts
     from ..output.sources import FilledPart
 
@@ -242,7 +251,10 @@ def size(
         goal = goal_of(
             loads.material, asked, remove_thin=remove_thin, radius_list=radius_list,
             symmetry=symmetry,
+            printing=_printing(as_printed, scatter, given.get("build_direction")),
         )  # fmt: skip
+        if prove == "file":
+            check_file_proof(goal)
         made = size_struts(
             solid, wanted, loads, goal, most_steps=steps, prove_it=proof, progress=told,
             cache=cache,
@@ -251,6 +263,20 @@ def size(
         if prove == "file":
             prove_file(made, infill.result.mesh, loads, voxel=voxel, progress=told)
         return Part(infill.result, made.spec, solid, cache, FilledPart(infill, cache), made)
+
+
+def _printing(table: str | None, scatter: float, up: Any) -> Printing | None:
+    """How struts of a sized part come out of the printer; None where they are taken as drawn."""
+    check_kind("scatter", scatter, Real, "a number")
+    if table is None:
+        if scatter:
+            raise VolfrepError("'scatter' is that of a table: name it by 'as_printed'.")
+        return None
+    from ..design.as_printed import find_printed_table
+    from ..jobs.sizing import Printing
+
+    up = BY_NAME["build_direction"].default if up is None else up
+    return Printing(find_printed_table(table), up, float(scatter))
 
 
 def solve(

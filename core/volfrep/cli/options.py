@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ..design.as_printed import PrintedTable
     from ..design.file_limits import FileLimits
     from ..design.spec import LatticeSpec
+    from ..jobs.sizing import Printing
     from ..mechanics.materials import Material, SolidMaterial
     from ..reports.processes import Process
 
@@ -160,6 +161,7 @@ class SizeOptions(LatticeOptions):
         remove_thin: take away the thinnest struts, and size again.
         radius_list: the radii that may be, mm; empty for any.
         symmetry: planes of symmetry; None for none.
+        printing: how struts come out; None where they are taken as drawn.
         steps: of the search, at most.
         prove: whether CalculiX solves the final design.
         prove_file: whether the finished file is solved as a solid.
@@ -184,6 +186,7 @@ class SizeOptions(LatticeOptions):
     remove_thin: bool
     radius_list: tuple[float, ...]
     symmetry: str | None
+    printing: Printing | None
     steps: int
     prove: bool
     prove_file: bool
@@ -275,6 +278,7 @@ def size_options(given: argparse.Namespace) -> SizeOptions:
         part=given.part, unit=given.unit, form=form, loads=given.loads,
         goal={name: getattr(given, name) for name in GOALS}, remove_thin=given.remove_thin,
         radius_list=given.radius_list, symmetry=given.symmetry,
+        printing=_printing(given, found),
         steps=given.steps, prove=not given.no_proof,
         prove_file=given.prove == "file", voxel=given.voxel, radii=given.radii,
         thickness=given.thickness, limits=_limits(given, form),
@@ -334,6 +338,19 @@ def _printed_table(given: argparse.Namespace, form: Form) -> PrintedTable | None
             "What comes out is told of a mesh: write one, or give --compensate for what is drawn."
         )
     return find_printed_table(given.as_printed)
+
+
+def _printing(given: argparse.Namespace, found: Specified) -> Printing | None:
+    """How the struts of a design come out."""
+    if given.as_printed is None:
+        if given.scatter:
+            raise VolfrepError("--scatter is that of a table: name it by --as-printed.")
+        return None
+    from ..design.as_printed import find_printed_table
+    from ..jobs.sizing import Printing
+
+    table = find_printed_table(given.as_printed)
+    return Printing(table, found.build_direction, given.scatter)
 
 
 def _limits(given: argparse.Namespace, form: Form) -> FileLimits:

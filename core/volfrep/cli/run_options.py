@@ -274,6 +274,18 @@ RUN_OPTIONS = (
         "TABLE", MATERIAL_GROUP, reads="table of printed diameters",
     ),
     RunOption(
+        "as-printed", ("size",),
+        "stress, stiffness and mass of struts as they come out, by a table as of fill; radii are "
+        "written as they are drawn",
+        "TABLE", GOAL_GROUP, reads="table of printed diameters",
+    ),
+    RunOption(
+        "scatter", ("size",),
+        "stress and buckling of struts thinner by so many standard deviations of that table "
+        "(default 0)",
+        "N", GOAL_GROUP, float, 0.0,
+    ),
+    RunOption(
         "as-printed", ("properties",),
         "of struts as they come out, by a table as of fill: of the one radius that takes the "
         "volume of all",

@@ -49,7 +49,14 @@ def _size(given: argparse.Namespace) -> int | None:
     options = size_options(given)
 
     from ..jobs.infill import Infill
-    from ..jobs.sizing import goal_of, prove_file, size, write_radii, write_thickness
+    from ..jobs.sizing import (
+        check_file_proof,
+        goal_of,
+        prove_file,
+        size,
+        write_radii,
+        write_thickness,
+    )
     from ..loads.load_file import read_load_cases
     from ..output.file_size import fill_within
     from ..output.sources import FilledPart
@@ -66,8 +73,10 @@ def _size(given: argparse.Namespace) -> int | None:
     goal = goal_of(
         loads.material, options.goal, lambda name: f"--{name.replace('_', '-')}",
         remove_thin=options.remove_thin, radius_list=options.radius_list,
-        symmetry=options.symmetry,
+        symmetry=options.symmetry, printing=options.printing,
     )  # fmt: skip
+    if options.prove_file:
+        check_file_proof(goal)
     cache = StageCache()
     start = time.perf_counter()
     with drawn(options.quiet) as progress:

@@ -34,6 +34,7 @@ class PrintedRow:
         offset: added to a drawn diameter, mm.
         share: added as a share of it.
         source: what was drawn and measured, and where that is written.
+        scatter: standard deviation of what comes out, mm; 0 where it is not known.
     """
 
     low: float
@@ -41,6 +42,7 @@ class PrintedRow:
     offset: float
     share: float
     source: str
+    scatter: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -64,41 +66,41 @@ class PrintedTable:
             diameters: (n,) as drawn, mm.
             inclinations: (n,) to the build plate, degrees from 0 to 90.
         """
-        offset, share = self._at(np.asarray(inclinations, float))
+        offset, share, _ = self.at(np.asarray(inclinations, float))
         return np.asarray(np.asarray(diameters, float) * (1.0 + share) + offset)
 
     def drawn(self, diameters: ArrayLike, inclinations: ArrayLike) -> Floats:
         """(n,) diameters in mm to draw, so that these come out; not above 0 where none do."""
-        offset, share = self._at(np.asarray(inclinations, float))
+        offset, share, _ = self.at(np.asarray(inclinations, float))
         return np.asarray((np.asarray(diameters, float) - offset) / (1.0 + share))
 
-    def _at(self, angle: Floats) -> tuple[Floats, Floats]:
-        """(n,) what is added in mm, and as a share."""
+    def at(self, angle: Floats) -> tuple[Floats, Floats, Floats]:
+        """(n,) what is added in mm, and as a share; and the scatter, mm; at (n,) degrees."""
         places = [place for row in self.rows for place in (row.low, row.high)]
-        values = [(row.offset, row.share) for row in self.rows for _ in range(2)]
-        offset, share = np.array(values, float).T
+        values = [(row.offset, row.share, row.scatter) for row in self.rows for _ in range(2)]
         # Where two rows meet the later one counts, but a row of one inclination before both.
-        found = [np.interp(angle, places, column) for column in (offset, share)]
+        found = [np.interp(angle, places, column) for column in np.array(values, float).T]
         for row in self.rows:
             if row.low == row.high:
                 on = np.abs(angle - row.low) < 1e-6
-                found[0][on], found[1][on] = row.offset, row.share
-        return found[0], found[1]
+                for column, value in zip(found, (row.offset, row.share, row.scatter), strict=True):
+                    column[on] = value
+        return found[0], found[1], found[2]
 
 
 _NPJ = "npj Adv. Manuf. s44334-025-00019-y, Table 2 (SEM, 10 struts each; sizes differ by class)"
 _TABLES = (
     PrintedTable("LPBF-Ti64", "LPBF, Ti-6Al-4V", (
-        PrintedRow(0.0, 0.0, 0.036, 0.0, f"1.250 -> 1.286 mm; {_NPJ}"),
-        PrintedRow(1e-3, 29.0, 0.032, 0.0, f"1.208 -> 1.240 mm; {_NPJ}"),
-        PrintedRow(31.0, 59.0, 0.080, 0.0, f"0.839 -> 0.919 mm; {_NPJ}"),
-        PrintedRow(61.0, 89.999, 0.038, 0.0, f"0.324 -> 0.362 mm; {_NPJ}"),
-        PrintedRow(90.0, 90.0, 0.036, 0.0, f"0.200 -> 0.236 mm; {_NPJ}"),
+        PrintedRow(0.0, 0.0, 0.036, 0.0, f"1.250 -> 1.286 mm; {_NPJ}", 0.058),
+        PrintedRow(1e-3, 29.0, 0.032, 0.0, f"1.208 -> 1.240 mm; {_NPJ}", 0.041),
+        PrintedRow(31.0, 59.0, 0.080, 0.0, f"0.839 -> 0.919 mm; {_NPJ}", 0.037),
+        PrintedRow(61.0, 89.999, 0.038, 0.0, f"0.324 -> 0.362 mm; {_NPJ}", 0.034),
+        PrintedRow(90.0, 90.0, 0.036, 0.0, f"0.200 -> 0.236 mm; {_NPJ}", 0.048),
     )),
     PrintedTable("LPBF-316L", "LPBF, 316L", (
         PrintedRow(0.0, 90.0, 0.0227, 0.0,
                    "0.800 -> 0.8227 +- 0.084 mm; Bio-inspired dual-phase lattice cylindrical "
-                   "tubes, Table 3"),
+                   "tubes, Table 3", 0.084),
     )),
     PrintedTable("SLS-PA12", "SLS, PA2200", (
         PrintedRow(0.0, 90.0, 0.0, 0.075,
@@ -113,7 +115,8 @@ def find_printed_table(text: str | os.PathLike[str]) -> PrintedTable:
     """The table of a name (case does not matter), or of a .csv file of one's own.
 
     A file has the columns inclination (degrees), nominal and measured (mm). Of one nominal
-    diameter at an inclination the difference is taken, of several the straight line through them.
+    diameter at an inclination the difference is taken, of several the straight line through them;
+    the scatter is what measurements lie beside that.
 
     Raises:
         VolfrepError: there is no such table, or the file makes none.
@@ -171,10 +174,14 @@ def _row(angle: float, pairs: list[tuple[float, float]]) -> PrintedRow:
     nominal, measured = np.array(pairs, float).T
     source = f"{len(pairs)} measured"
     if np.ptp(nominal) < 1e-6:
-        return PrintedRow(angle, angle, float((measured - nominal).mean()), 0.0, source)
+        added = measured - nominal
+        scatter = float(added.std(ddof=1)) if len(pairs) > 1 else 0.0
+        return PrintedRow(angle, angle, float(added.mean()), 0.0, source, scatter)
     slope, offset = np.polyfit(nominal, measured, 1)
     if slope <= 0.0:
         raise VolfrepError(
             f"At {angle:g} degrees thicker struts were measured to be thinner: look at the table."
         )
-    return PrintedRow(angle, angle, float(offset), float(slope - 1.0), source)
+    beside = measured - slope * nominal - offset
+    scatter = float(np.sqrt((beside**2).sum() / max(len(pairs) - 2, 1)))
+    return PrintedRow(angle, angle, float(offset), float(slope - 1.0), source, scatter)

@@ -119,6 +119,10 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("struts", f"{report['struts']:,}, radii {low:.3g} to {high:.3g} mm"),
         ("strut mass", f"{report['strut_mass_g']:.4g} g of {report['material']['name']}"),
     ]
+    if "as_printed" in report:
+        thin, thick = report["as_printed"]["diameters_mm"]
+        told = f"this mass and all that follows is of struts {thin:.3g} to {thick:.3g} mm thick"
+        rows.append(("as printed", f"{told} ({report['as_printed']['table']})"))
     if report["skin_mass_g"]:
         rows.append(("skin mass", f"{report['skin_mass_g']:.4g} g"))
     if "radius_list" in report:

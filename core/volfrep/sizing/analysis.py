@@ -226,10 +226,11 @@ def analyse(
     forces = structure.forces(of_struts, moved)
     loads = structure.all_loads(of_struts, problem.cases)
     compliance = np.einsum("nik,nik->k", loads, moved)
-    stress = stresses(beams, of_struts, forces).mises
+    weakest = problem.radii.weakest(radii)
+    stress = stresses(beams, weakest, forces).mises
     if problem.felt is not None:
         stress = stress * problem.felt[:, None, None]
-    critical = buckling_loads(beams, of_struts, len(structure.nodes))
+    critical = buckling_loads(beams, weakest, len(structure.nodes))
     buckling = np.maximum(-forces[:, 0], 0.0) / critical[:, None]
     size = np.where(problem.watched[:, None], np.linalg.norm(moved[:, :3], axis=1), 0.0)
 

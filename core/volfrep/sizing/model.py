@@ -28,7 +28,7 @@ from ..trim.clip_struts import Clipped
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
 from .analysis import Problem
-from .node_radii import NodeRadii, largest_radii
+from .node_radii import ComesOut, NodeRadii, largest_radii
 from .skin import NO_FEET, Feet, SkinModel, ties_to
 from .skin_thickness import SkinThickness, control_points, shares_of, with_skin
 from .structure import NO_TIES, Structure
@@ -133,6 +133,7 @@ def sizing_model(
     domain: TriangleMesh | None = None,
     stays: Bools | None = None,
     masses: Sequence[Mass] = (),
+    comes_out: ComesOut | None = None,
 ) -> SizingModel:
     """Struts, skin and loads as one structure.
 
@@ -151,6 +152,7 @@ def sizing_model(
         domain: closed mesh, outside of which struts have no volume; None where nothing cuts them.
         stays: (k,) bool, which struts of the wireframe the part has at all; None for all.
         masses: of attached bodies.
+        comes_out: what the printer makes of the wireframe's struts; None for what is drawn.
 
     Raises:
         VolfrepError: nothing of the part lies where a load acts, or no strut hangs together.
@@ -179,15 +181,23 @@ def sizing_model(
     inside = np.zeros(len(frame.nodes), bool)
     inside[struts.ravel()] = True
     made = Graph(wireframe.nodes, wireframe.struts if stays is None else wireframe.struts[stays])
-    filled = union_volume(made, cell_size, np.full(count, least), largest, domain)
-    shape = NodeRadii(ends, filled)
+    thin, thick = np.full(count, least), largest
+    if comes_out is not None:
+        thin = np.minimum(thin, comes_out.at_nodes(thin))
+        thick = np.maximum(thick, comes_out.at_nodes(thick))
+    filled = union_volume(made, cell_size, thin, thick, domain)
+    shape = NodeRadii(ends, filled, None if comes_out is None else comes_out.of(owner))
 
     alone = np.bincount(struts.ravel(), minlength=len(frame.nodes)) == 1
     on_wall = np.asarray(
         clipped.on_wall & inside if skin is not None else np.zeros(len(inside), bool)
     )
     stuff = elastic(material)
-    table = end_table(ends_law(cell, cell_size, "square"), least, float(largest.max()))
+    smallest, biggest = least, float(largest.max())
+    if comes_out is not None:
+        smallest = min(smallest, float(shape.of_struts(np.full(count, least)).min()))
+        biggest = max(biggest, float(shape.of_struts(largest).max()))
+    table = end_table(ends_law(cell, cell_size, "square"), smallest, biggest)
     joined = ~(clipped.on_wall & alone)[struts]
     nodes, ties, blocks = frame.nodes, NO_TIES, None
     facets = np.empty((0, 3), np.int64)

@@ -3,6 +3,9 @@
 
 Radii and not densities, at nodes, because the mesh is made of these. Volume is the struts' cones
 less what they share at a node: a constant of its directions times the radius cubed.
+
+Struts may come out of the printer thicker or thinner than they are drawn: radii at nodes are those
+drawn, and all that is computed of them is of those that come out.
 """
 
 from __future__ import annotations
@@ -25,6 +28,38 @@ _SAME = 1e-4
 _ODD = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
 
 
+#: What comes out is no thinner than this part of what is drawn, below all bounds.
+_LEAST_OUT = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class ComesOut:
+    """Radii that come out of a printer: ``factor * drawn + added``.
+
+    Attributes:
+        factor, added: (m,) of struts, added in mm.
+        thinner: (m,) mm, by which struts may be thinner yet, which stress and buckling go by.
+        node_factor, node_added: (n,) the same at nodes, for the volume.
+    """
+
+    factor: Floats
+    added: Floats
+    thinner: Floats
+    node_factor: Floats
+    node_added: Floats
+
+    def of(self, struts: Ints) -> ComesOut:
+        """Of pieces of struts: (p,) rows."""
+        return ComesOut(
+            self.factor[struts], self.added[struts], self.thinner[struts], self.node_factor,
+            self.node_added,
+        )  # fmt: skip
+
+    def at_nodes(self, radii: Floats) -> Floats:
+        """(n,) mm: the mean of what a node's struts come out as."""
+        return np.maximum(self.node_factor * radii + self.node_added, _LEAST_OUT * radii)
+
+
 @dataclass(frozen=True, eq=False)
 class NodeRadii:
     """Struts whose radii are those of nodes, straight in between.
@@ -33,25 +68,47 @@ class NodeRadii:
         ends: (2 m, n) sparse: the radius at each strut's first and second end of those at nodes.
             A strut that was cut has an end between two nodes.
         filled: what the whole struts and their joints fill.
+        comes_out: of the printer; None where struts are taken as they are drawn.
     """
 
     ends: sparse.csr_matrix
     filled: UnionVolume
+    comes_out: ComesOut | None = None
+
+    def drawn(self, radii: Floats) -> Floats:
+        """(m, 2) mm, of (n,) at nodes, whatever comes out."""
+        return np.asarray(self.ends @ radii).reshape(-1, 2)
 
     def of_struts(self, radii: Floats) -> Floats:
         """(m, 2) mm, of (n,) at nodes."""
-        return np.asarray(self.ends @ radii).reshape(-1, 2)
+        drawn, out = self.drawn(radii), self.comes_out
+        if out is None:
+            return drawn
+        return np.maximum(out.factor[:, None] * drawn + out.added[:, None], _LEAST_OUT * drawn)
+
+    def weakest(self, radii: Floats) -> Floats:
+        """(m, 2) mm, as thin as struts may come out, which stress and buckling go by."""
+        found, out = self.of_struts(radii), self.comes_out
+        if out is None:
+            return found
+        return np.maximum(found - out.thinner[:, None], _LEAST_OUT * found)
 
     def volume(self, radii: Floats) -> float:
         """mm3, of all struts and joints together, what overlaps counted once."""
-        return self.filled.at(radii)
+        out = self.comes_out
+        return self.filled.at(radii if out is None else out.at_nodes(radii))
 
     def volume_change(self, radii: Floats) -> Floats:
         """(n,) mm2, derivative of the volume to each radius."""
-        return self.filled.change(radii)
+        out = self.comes_out
+        if out is None:
+            return self.filled.change(radii)
+        return self.filled.change(out.at_nodes(radii)) * out.node_factor
 
     def to_nodes(self, changes: Floats) -> Floats:
         """(n,) derivatives to nodes' radii, of (m, 2) to those of struts' ends."""
+        if self.comes_out is not None:
+            changes = changes * self.comes_out.factor[:, None]
         return np.asarray(self.ends.T @ changes.ravel())
 
     def scaled_to(self, radii: Floats, volume: float, low: Floats, high: Floats) -> Floats:

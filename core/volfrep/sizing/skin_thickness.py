@@ -13,7 +13,7 @@ ends with that of its design by making the model again.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -178,16 +178,16 @@ class RadiiAndSkin(NodeRadii):
         skin: what of the variables is the skin's.
     """
 
-    skin: SkinThickness
+    skin: SkinThickness = field(kw_only=True)
 
     def volume(self, radii: Floats) -> float:
         """mm3, of struts and skin."""
-        return self.filled.at(radii[: self.skin.radii]) + self.skin.volume(radii)
+        return super().volume(radii[: self.skin.radii]) + self.skin.volume(radii)
 
     def volume_change(self, radii: Floats) -> Floats:
         """(n + p,) its derivative to each variable."""
         change = self.skin.volume_change(radii)
-        change[: self.skin.radii] += self.filled.change(radii[: self.skin.radii])
+        change[: self.skin.radii] += super().volume_change(radii[: self.skin.radii])
         return change
 
 
@@ -196,4 +196,4 @@ def with_skin(shape: NodeRadii, skin: SkinThickness) -> RadiiAndSkin:
     rows, columns = shape.ends.shape
     ends = shape.ends.tocsr().copy()
     ends.resize(rows, columns + len(skin.points))
-    return RadiiAndSkin(ends, shape.filled, skin)
+    return RadiiAndSkin(ends, shape.filled, shape.comes_out, skin=skin)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Radii that follow what a part carries: what is wanted, and the job that finds them."""
 
-from .file_proof import prove_file
+from .file_proof import check_file_proof, prove_file
 from .goal import GOALS, Goal, goal_of
+from .printed import Printing
 from .removal import radius_field
 from .sizing import (
     SizedPart,
@@ -16,7 +17,9 @@ from .skin_search import write_thickness
 __all__ = [
     "GOALS",
     "Goal",
+    "Printing",
     "SizedPart",
+    "check_file_proof",
     "goal_of",
     "prove_file",
     "radius_field",

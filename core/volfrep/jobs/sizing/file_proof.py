@@ -15,10 +15,24 @@ from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import Cancelled, VolfrepError
 from ...util.progress import ProgressCallback
 from ..solving import Expected, solve_solid
+from .goal import Goal
 from .sizing import SizedPart
 
 #: Design and file agree where displacements differ by no more than this part of the file's.
 AGREES = 0.15
+
+
+def check_file_proof(goal: Goal) -> None:
+    """Refuse to solve a file for a design of other struts, before any work.
+
+    Raises:
+        VolfrepError: the design is of struts as they come out.
+    """
+    if goal.printing is not None:
+        raise VolfrepError(
+            "The finished file has struts as they are drawn, and this design is of struts as they "
+            "come out: leave out the proof by the file."
+        )
 
 
 def prove_file(

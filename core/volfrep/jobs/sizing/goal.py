@@ -13,6 +13,7 @@ from ...sizing.analysis import Limits
 from ...sizing.symmetry import Mirrors
 from ...util.arguments import check_kind
 from ...util.errors import VolfrepError, brief
+from .printed import Printing
 
 #: What a user may want: limits, or a mass of struts, and between which radii, how even; between
 #: which thicknesses of the skin, and how far apart these are chosen.
@@ -43,6 +44,7 @@ class Goal:
         weights: of the load cases, for stiffness; None for all alike.
         radius_list: mm, the radii that nodes may have; empty for any.
         mirrors: planes of symmetry; None for none.
+        printing: how struts come out, which all figures are then of; None as they are drawn.
     """
 
     limits: Limits = field(default_factory=Limits)
@@ -57,6 +59,7 @@ class Goal:
     remove_thin: bool = False
     radius_list: tuple[float, ...] = ()
     mirrors: Mirrors | None = None
+    printing: Printing | None = None
 
 
 def goal_of(
@@ -67,6 +70,7 @@ def goal_of(
     remove_thin: bool = False,
     radius_list: Sequence[float] = (),
     symmetry: str | None = None,
+    printing: Printing | None = None,
 ) -> Goal:
     """The goal that a user has written down.
 
@@ -78,6 +82,7 @@ def goal_of(
         remove_thin: see `Goal`.
         radius_list: the radii that may be, mm; empty for any between bounds.
         symmetry: planes as a text, such as "x=0, z=2.5"; None for none.
+        printing: see `Goal`.
 
     Raises:
         VolfrepError: there is no goal of a name, two say the same, or a number makes no sense.
@@ -130,6 +135,7 @@ def goal_of(
         skin_patch=given.get("skin_patch"), remove_thin=remove_thin,
         radius_list=_list_of(radius_list, given, named),
         mirrors=None if symmetry is None else _mirrors_of(symmetry, named("symmetry")),
+        printing=printing,
     )  # fmt: skip
 
 

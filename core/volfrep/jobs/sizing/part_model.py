@@ -25,6 +25,7 @@ from ...util.errors import VolfrepError
 from ...util.types import Floats
 from ..infill import Infill
 from .goal import Goal
+from .printed import comes_out
 
 #: Edges of the skin's triangles over its thickness, at least.
 SKIN_EDGE_LEAST = 1.5
@@ -90,19 +91,23 @@ def part_model(
             "and below the largest, which the cells do not bear beyond "
             f"{bears.most:.4g} mm."
         )
+    out = None
+    if goal.printing is not None:
+        out = comes_out(goal.printing, wireframe, least)
     skin = None
     if spec.with_skin:
         edge = infill.filling.skin_edge
         if goal.limits.frame_buckling is not None:
             edge *= DIMPLED
         edge = max(edge, SKIN_EDGE_LEAST * spec.shell)
+        held = given_radii(wireframe) if reach is None else reach
         with infill.monitor.stage("skin", 0.3, 0.4):
             skin = skin_model(
                 infill.solid, thickness_of_skin(infill.solid, spec), edge, elastic(material),
                 infill.domain.openings,
                 feet_of(
                     wireframe, clipped, infill.domain.mesh,
-                    given_radii(wireframe) if reach is None else reach,
+                    held if out is None else out.at_nodes(held),
                 ),
                 infill.monitor, held=held_facets(infill.solid, loads.cases), thickest=thickest,
             )  # fmt: skip
@@ -110,7 +115,7 @@ def part_model(
         wireframe, clipped, spec.kind.cube, infill.filling.spacing, material, loads.cases,
         bounds=(least, most), borne=bears.own, skin=skin, solid=infill.solid,
         domain=infill.domain.mesh if infill.placement.is_cut else None, stays=infill.staying,
-        masses=loads.masses,
+        masses=loads.masses, comes_out=out,
     )  # fmt: skip
     if goal.smooth:
         smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)

@@ -46,6 +46,7 @@ from .notes import (
     unproved,
 )
 from .part_model import given_radii, part_model
+from .printed import printed_note, told_printed
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, without_thin_struts
 from .skin_search import SkinDesign, design_skin, skin_peaks, solid_places, thickness_there
 
@@ -436,6 +437,14 @@ def _record(
         report["removed"]["places"] = taken.places
     if search.any_radii is not None:
         report["radius_list"] = _told_list(task.goal.radius_list, search)
+    if task.goal.printing is not None:
+        report["as_printed"] = told_printed(
+            task.goal.printing,
+            search.model,
+            search.sized.analysis,
+            task.loads.material.density,
+        )
+        report["notes"].append(printed_note(report["as_printed"]))
     if task.skin is not None:
         _with_skin(report, skin_peaks(search.model, search.sized.analysis), task, search.model)
         report["skin"] = {

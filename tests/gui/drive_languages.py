@@ -50,7 +50,7 @@ def commands():
 def cut_off(form):
     """Texts of a form's widgets that have less room than they need."""
     found = []
-    is_panel = form.objectName() == "VolfrepTaskPanel"
+    is_panel = form.objectName().endswith("Panel")
     if is_panel and form.visibleRegion().boundingRect().width() < form.width():
         found.append(f"{form.objectName()} is {form.width()} wide and hangs over")
     for widget in form.findChildren(QtGui.QWidget):
@@ -59,6 +59,15 @@ def cut_off(form):
             wraps = isinstance(widget, QtGui.QLabel) and widget.wordWrap()
             if widget.text() and not wraps and widget.width() < needed.width():
                 found.append(f"{widget.text()}: {widget.width()} of {needed.width()}")
+        elif isinstance(widget, QtGui.QAbstractSpinBox) and widget.isVisible():
+            line = widget.findChild(QtGui.QLineEdit)
+            # Qt leaves two pixels at either side, FreeCAD a place for its sign.
+            signs = [sign for sign in line.findChildren(QtGui.QLabel) if sign.isVisible()]
+            room = line.contentsRect().width() - sum(sign.width() for sign in signs) - 4
+            text = max(line.text(), "10.00 mm" if line.text().endswith(" mm") else "", key=len)
+            needed = line.fontMetrics().boundingRect(text).width()
+            if room < needed:
+                found.append(f"{text}: {room} of {needed}")
     return found
 
 
@@ -83,11 +92,39 @@ def speak(language, command, word, label, figure):
     check(f"{language}: nothing is cut off in it", cut_off(panel()) == [], cut_off(panel()))
     picture(f"language_{language}_1_panel")
     choose_boundary(obj)
-    boxes = Gui.getMainWindow().findChildren(QtGui.QDialogButtonBox)
-    buttons = [box.button(QtGui.QDialogButtonBox.Cancel) for box in boxes if box.isVisible()]
-    next(filter(None, buttons)).click()
+    leave(QtGui.QDialogButtonBox.Cancel)
     check(f"{language}: the panel closes", wait_until(lambda: panel() is None))
+    other_panels(language)
     preferences(language)
+
+
+def leave(answer):
+    """Press a button of the open panel, whatever it is called."""
+    boxes = Gui.getMainWindow().findChildren(QtGui.QDialogButtonBox)
+    next(filter(None, (box.button(answer) for box in boxes if box.isVisible()))).click()
+    settle()
+
+
+def other_panels(language):
+    """Those of sizing and of a study, whose buttons are as narrow as the tree."""
+    from freecad_volfrep import make_lattice_infill
+
+    doc = App.ActiveDocument
+    obj = make_lattice_infill(doc, doc.Block, CellSize=10)
+    for command, name, answer in (
+        ("SizeLattice", "Size", QtGui.QDialogButtonBox.Cancel),
+        ("DesignStudy", "Study", QtGui.QDialogButtonBox.Close),
+    ):
+        select(obj)
+        Gui.runCommand(f"VOLFREP_{command}", 0)
+        settle()
+        found = Gui.getMainWindow().findChildren(QtGui.QWidget, f"Volfrep{name}Panel")
+        form = next(widget for widget in found if widget.isVisible())
+        check(f"{language}: nothing is cut off in {name}", cut_off(form) == [], cut_off(form))
+        picture(f"language_{language}_4_{name}")
+        leave(answer)
+    doc.removeObject(obj.Name)
+    settle()
 
 
 def choose_boundary(obj):

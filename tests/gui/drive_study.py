@@ -114,7 +114,7 @@ def study_an_infill(doc, infill):
     check(
         "the point's values are told",
         all(
-            text in said for text in ("Cell Type BCC", "Strut Radius 0.9 mm", "Skin thickness 1 mm")
+            text in said for text in ("Cell type BCC", "Strut radius 0.9 mm", "Skin thickness 1 mm")
         ),
         said,
     )

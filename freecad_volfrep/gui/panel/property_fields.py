@@ -19,6 +19,7 @@ from freecad_volfrep.features.properties.quantities import (
 from freecad_volfrep.gui.cells.cell_library import cell_files
 from freecad_volfrep.gui.qt import QtCore, QtGui, QtWidgets
 from freecad_volfrep.gui.widgets.file_field import FileField
+from freecad_volfrep.gui.widgets.panel_manners import number_width
 from freecad_volfrep.gui.widgets.typed_sums import TypedSums
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, spaced, translate
 from volfrep.design.field_files import TABLE_SUFFIXES, VTK_SUFFIXES
@@ -140,6 +141,7 @@ class PropertyFields:
         spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
         spin.setProperty("unit", "mm" if kind == "App::PropertyLength" else "")
         spin.setProperty("minimum", 0.0)
+        spin.setMinimumWidth(number_width(spin))
         present = getattr(self._obj, name)
         spin.setProperty("rawValue", getattr(present, "Value", present))
         line = spin.findChild(QtWidgets.QLineEdit)

@@ -323,7 +323,7 @@ class TaskPanel:
         for name in names:
             label, widget = QtWidgets.QLabel(label_of(name)), self._fields.field(name)
             widget.setObjectName(name)
-            widget.setMinimumWidth(FIELD)
+            widget.setMinimumWidth(max(FIELD, widget.minimumWidth()))
             widget.setToolTip(said_property(self._obj.getDocumentationOfProperty(name)))
             widget.setAccessibleName(label_of(name))
             label.setBuddy(widget)

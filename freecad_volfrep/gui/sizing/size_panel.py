@@ -28,6 +28,7 @@ from freecad_volfrep.gui.widgets.panel_manners import (
     entitle,
     fits_any_width,
     leave_the_wheel,
+    number_width,
 )
 from freecad_volfrep.gui.windows.plot_window import show_plot
 from freecad_volfrep.gui.windows.report_window import show_report
@@ -38,8 +39,6 @@ from .loads_box import LoadsBox
 
 #: The table of steps is brought up to date so often while they are made, ms.
 TICK = 150
-#: Least width of a field, px.
-FIELD = 82
 HEADER = (
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Step"),
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Mass, g"),
@@ -270,6 +269,7 @@ class SizePanel:
         box = QtWidgets.QGroupBox(translate("App::Property", "Material"))
         rows = QtWidgets.QFormLayout(box)
         rows.setContentsMargins(6, 4, 6, 4)
+        rows.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
         made = PropertyFields(self._obj, self._made_of, lambda _, text: self._say(text, wrong=True))
         for name in ("PrintMaterial", "PrintProcess"):
             field = made.field(name)
@@ -290,6 +290,7 @@ class SizePanel:
         box = QtWidgets.QGroupBox(translate("VolfrepSizePanel", "Goal and limits"))
         rows = QtWidgets.QFormLayout(box)
         rows.setContentsMargins(6, 4, 6, 4)
+        rows.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
         self._goal = QtWidgets.QComboBox()
         self._goal.setObjectName("Goal")
         for goal, text in GOALS.items():
@@ -314,14 +315,14 @@ class SizePanel:
             spin.setProperty("rawValue", first.get(name, 0.0))
             spin.setObjectName(name)
             spin.setToolTip(translate("VolfrepSizePanel", tip))
-            spin.setMinimumWidth(FIELD)
+            spin.setMinimumWidth(number_width(spin))
             label = QtWidgets.QLabel(translate("VolfrepSizePanel", text))
             rows.addRow(label, spin)
             self._fields[name] = label, spin
         self._remove = _switch(
             "Remove",
             False,
-            translate("VolfrepSizePanel", "Remove thin struts that carry little"),
+            translate("VolfrepSizePanel", "Remove struts that carry little"),
             translate(
                 "VolfrepSizePanel",
                 "Take away struts that end as thin as the smallest radius and size the rest again; "

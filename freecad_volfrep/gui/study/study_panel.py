@@ -26,7 +26,7 @@ from freecad_volfrep.features.study.design_study import (
     varied_of_study,
 )
 from freecad_volfrep.gui.messages import WRONG, tell_error
-from freecad_volfrep.gui.panel.property_fields import LABELS
+from freecad_volfrep.gui.panel.property_fields import label_of
 from freecad_volfrep.gui.qt import CLOSE, QtCore, QtGui, QtWidgets
 from freecad_volfrep.gui.undo import undo_step
 from freecad_volfrep.gui.view.preview_view import PreviewView
@@ -36,7 +36,7 @@ from freecad_volfrep.gui.widgets.panel_manners import (
     fits_any_width,
     leave_the_wheel,
 )
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, spaced, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, translate
 from volfrep.util.errors import VolfrepError
 
 from .study_plot import StudyPlot
@@ -207,13 +207,11 @@ class StudyPanel:
         values.setToolTip(translate("VolfrepStudy", "Values: 6, 8, 10, or 6 to 10 in 5"))
         name.addItem("", "")
         for known in self._known:
-            label = LABELS.get(known)
-            text = spaced(translate("App::Property", known))
-            name.addItem(text if label is None else translate("VolfrepTaskPanel", label), known)
+            name.addItem(label_of(known), known)
         if number < len(self._obj.Vary):
             varied, _, text = (part.strip() for part in self._obj.Vary[number].partition(":"))
             name.setCurrentIndex(max(0, name.findData(varied)))
-            values.setText(text)
+            _show_text(values, text)
         name.currentIndexChanged.connect(lambda _: self._suggest(name, values))
         values.textChanged.connect(lambda _: self._show_count())
         rows.addWidget(name, number, 0)
@@ -224,7 +222,7 @@ class StudyPanel:
     def _suggest(self, name: Any, values: Any) -> None:
         """Values about the present one, for a property that was chosen now."""
         parameter = self._known.get(name.currentData())
-        values.setText("" if parameter is None else values_about(self._obj.Infill, parameter))
+        _show_text(values, "" if parameter is None else values_about(self._obj.Infill, parameter))
 
     def _axis(self, line: Any, name: str) -> Any:
         choice = QtWidgets.QComboBox()
@@ -374,13 +372,13 @@ def open_study(obj: App.DocumentObject) -> bool:
 def _value_in_words(name: str, value: Any) -> str:
     """What a parameter of a design is, as a user reads it."""
     parameter = parameter_of(name)
-    label = LABELS.get(parameter.property_name)
-    told = (
-        translate("App::Property", spaced(parameter.property_name))
-        if label is None
-        else translate("VolfrepTaskPanel", label)
-    )
-    return f"{told} {_shown(value)}{UNITS.get(parameter.kind, '')}"
+    return f"{label_of(parameter.property_name)} {_shown(value)}{UNITS.get(parameter.kind, '')}"
+
+
+def _show_text(line: Any, text: str) -> None:
+    """Put a text into a line that may be narrower: its beginning is what is seen."""
+    line.setText(text)
+    line.setCursorPosition(0)
 
 
 def _shown(value: Any) -> str:

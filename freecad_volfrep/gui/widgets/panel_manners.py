@@ -12,6 +12,9 @@ from freecad_volfrep.gui.qt import QtCore, QtWidgets
 
 #: The longest title: FreeCAD widens a panel until its title has room.
 LONGEST_TITLE = 28
+#: What a field shows at least, and what its frame, FreeCAD's sign for expressions and arrows take,
+#: px.
+LONGEST_NUMBER, SIGNS = "100.00 mm", 46
 
 
 class PanelForm(QtWidgets.QWidget):
@@ -74,6 +77,11 @@ def narrow(choice: Any) -> None:
     """Let a list be narrower than its entries: the panel must fit beside FreeCAD's tree."""
     choice.setMinimumContentsLength(4)
     choice.setSizeAdjustPolicy(type(choice).AdjustToMinimumContentsLengthWithIcon)
+
+
+def number_width(field: Any) -> int:
+    """Least width of FreeCAD's field that shows a length of hundreds beside its own signs, px."""
+    return int(field.fontMetrics().boundingRect(LONGEST_NUMBER).width()) + SIGNS
 
 
 def entitle(form: Any, title: str) -> None:

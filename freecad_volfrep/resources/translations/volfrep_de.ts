@@ -534,7 +534,7 @@
     </message>
     <message>
       <source>Largest distance between a facet and the exact struts and joints, kept within 1.5 times; 0 for a thirty-fifth of the radius</source>
-      <translation>Größter Abstand zwischen einer Facette und den genauen Stäben und Knoten, auf das 1,5-fache eingehalten; 0 für ein Fünfunddreißigstel des Radius</translation>
+      <translation>Größter Abstand zwischen einer Facette und den genauen Streben und Knoten, auf das 1,5-fache eingehalten; 0 für ein Fünfunddreißigstel des Radius</translation>
     </message>
     <message>
       <source>Lattice</source>
@@ -634,59 +634,59 @@
     </message>
     <message>
       <source>Network</source>
-      <translation>Netz</translation>
+      <translation>Netzwerk</translation>
     </message>
     <message>
       <source>Network Angle</source>
-      <translation>Netz: Winkel</translation>
+      <translation>Netzwerk: Winkel</translation>
     </message>
     <message>
       <source>Network Density</source>
-      <translation>Netz: Dichte</translation>
+      <translation>Netzwerk: Dichte</translation>
     </message>
     <message>
       <source>Network Faces</source>
-      <translation>Netzflächen</translation>
+      <translation>Netzwerk: Flächen</translation>
     </message>
     <message>
       <source>Network Field</source>
-      <translation>Netzwerkfeld</translation>
+      <translation>Netzwerk: Feld</translation>
     </message>
     <message>
       <source>Network File</source>
-      <translation>Netz: Datei</translation>
+      <translation>Netzwerk: Datei</translation>
     </message>
     <message>
       <source>Network Layers</source>
-      <translation>Netzlagen</translation>
+      <translation>Netzwerk: Lagen</translation>
     </message>
     <message>
       <source>Network On Wall</source>
-      <translation>Netzwerk auf der Wand</translation>
+      <translation>Netzwerk auf der Haut</translation>
     </message>
     <message>
       <source>Network Points</source>
-      <translation>Netz: Punkte</translation>
+      <translation>Netzwerk: Punkte</translation>
     </message>
     <message>
       <source>Network Relax</source>
-      <translation>Netz: Ausgleich</translation>
+      <translation>Netzwerk: Ausgleich</translation>
     </message>
     <message>
       <source>Network Reversed</source>
-      <translation>Netz umgekehrt</translation>
+      <translation>Netzwerk umgekehrt</translation>
     </message>
     <message>
       <source>Network Seed</source>
-      <translation>Netz: Startwert</translation>
+      <translation>Netzwerk: Startwert</translation>
     </message>
     <message>
       <source>Network Shortest</source>
-      <translation>Netz: kürzester Stab</translation>
+      <translation>Netzwerk: kürzeste Strebe</translation>
     </message>
     <message>
       <source>Network Thickness</source>
-      <translation>Netzdicke</translation>
+      <translation>Netzwerk: Dicke</translation>
     </message>
     <message>
       <source>Nodes</source>
@@ -694,7 +694,7 @@
     </message>
     <message>
       <source>Nodes and struts: .json, .csv, lines of .obj or .vtk, beams of .3mf; or a mesh (.vtk, .vtu, .inp, .msh, .obj) whose hexahedra the cell is laid into, on whose quadrilaterals layers of it lie, or whose tetrahedra's edges are struts</source>
-      <translation>Knoten und Streben: .json, .csv, Linien aus .obj oder .vtk, Stäbe aus .3mf; oder ein Netz (.vtk, .vtu, .inp, .msh, .obj), in dessen Hexaeder die Zelle gelegt wird, auf dessen Vierecken sie in Lagen liegt oder dessen Tetraederkanten Streben sind</translation>
+      <translation>Knoten und Streben: .json, .csv, Linien aus .obj oder .vtk, Streben aus .3mf; oder ein Netz (.vtk, .vtu, .inp, .msh, .obj), in dessen Hexaeder die Zelle gelegt wird, auf dessen Vierecken sie in Lagen liegt oder dessen Tetraederkanten Streben sind</translation>
     </message>
     <message>
       <source>Nodes of the lattice before trimming</source>
@@ -758,7 +758,7 @@
     </message>
     <message>
       <source>Of two struts that meet at less than so many degrees the longer one goes</source>
-      <translation>Von zwei Stäben, die sich unter weniger Grad treffen, fällt der längere weg</translation>
+      <translation>Von zwei Streben, die sich unter weniger Grad treffen, fällt der längere weg</translation>
     </message>
     <message>
       <source>Of walls and solid layers</source>
@@ -982,7 +982,7 @@
     </message>
     <message>
       <source>Shell Thickness</source>
-      <translation>Wandstärke</translation>
+      <translation>Hautdicke</translation>
     </message>
     <message>
       <source>Short struts with a free end, taken away</source>
@@ -1094,11 +1094,11 @@
     </message>
     <message>
       <source>Struts run along the wall, too, where it cuts the faces of the points' cells</source>
-      <translation>Stäbe verlaufen auch auf der Wand, wo sie die Flächen der Zellen der Punkte schneidet</translation>
+      <translation>Streben verlaufen auch auf der Haut, wo sie die Flächen der Zellen der Punkte schneidet</translation>
     </message>
     <message>
       <source>Struts shorter than this are drawn together into one node; 0 for four radii</source>
-      <translation>Kürzere Stäbe werden zu einem Knoten zusammengezogen; 0 für vier Radien</translation>
+      <translation>Kürzere Streben werden zu einem Knoten zusammengezogen; 0 für vier Radien</translation>
     </message>
     <message>
       <source>Struts whose radius varies: along a direction, by the depth below the skin (s = 1 at the skin, or at the core), or by a field of values</source>
@@ -2051,7 +2051,7 @@
     </message>
     <message>
       <source>Strut radius, mm</source>
-      <translation>Stabradius, mm</translation>
+      <translation>Strebenradius, mm</translation>
     </message>
     <message>
       <source>The lattice is not the one that was sized any more: size it again.</source>
@@ -2283,7 +2283,7 @@
     </message>
     <message>
       <source>longest flat strut</source>
-      <translation>längster flacher Stab</translation>
+      <translation>längste flache Strebe</translation>
     </message>
     <message>
       <source>narrowest gap</source>
@@ -2311,7 +2311,7 @@
     </message>
     <message>
       <source>struts below {angle}°</source>
-      <translation>Stäbe unter {angle}°</translation>
+      <translation>Streben unter {angle}°</translation>
     </message>
     <message>
       <source>thickness {radius} mm</source>
@@ -2319,7 +2319,7 @@
     </message>
     <message>
       <source>thinnest strut</source>
-      <translation>dünnster Stab</translation>
+      <translation>dünnste Strebe</translation>
     </message>
     <message>
       <source>varies: see Print Check</source>
@@ -2884,7 +2884,7 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     </message>
     <message>
       <source>Distance between a facet and the exact strut, where the resolution is automatic; automatic: by the strut radius</source>
-      <translation>Abstand zwischen einer Facette und dem genauen Stab bei automatischer Auflösung; automatisch: nach dem Stabradius</translation>
+      <translation>Abstand zwischen einer Facette und der genauen Strebe bei automatischer Auflösung; automatisch: nach dem Strebenradius</translation>
     </message>
     <message>
       <source>Edge length L of a cell; automatic: about four cells across the thinnest side of the part</source>
@@ -2960,7 +2960,7 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     </message>
     <message>
       <source>Skin thickness</source>
-      <translation>Wandstärke</translation>
+      <translation>Hautdicke</translation>
     </message>
     <message>
       <source>Strut radius</source>
@@ -3612,7 +3612,7 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     </message>
     <message>
       <source>thin struts removed</source>
-      <translation>dünne Stäbe entfernt</translation>
+      <translation>dünne Streben entfernt</translation>
     </message>
     <message>
       <source>through-holes</source>
@@ -3706,7 +3706,7 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     </message>
     <message>
       <source>Buckling safety</source>
-      <translation>Sicherheit (Knicken)</translation>
+      <translation>Knicksicherheit</translation>
     </message>
     <message>
       <source>CalculiX does not confirm this design: see its notes.</source>
@@ -3714,7 +3714,7 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     </message>
     <message>
       <source>CalculiX's displacements of the same beams and skin differ by {off:.2g} %.</source>
-      <translation>Die Verschiebungen von CalculiX für dieselben Balken und dieselbe Wand weichen um {off:.2g} % ab.</translation>
+      <translation>Die Verschiebungen von CalculiX für dieselben Balken und dieselbe Haut weichen um {off:.2g} % ab.</translation>
     </message>
     <message>
       <source>CalculiX's displacements of the same beams differ by {off:.2g} %.</source>
@@ -3801,8 +3801,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Diagramm</translation>
     </message>
     <message>
-      <source>Remove thin struts that carry little</source>
-      <translation>Dünne Streben entfernen, die wenig tragen</translation>
+      <source>Remove struts that carry little</source>
+      <translation>Wenig tragende Streben weg</translation>
     </message>
     <message>
       <source>Smallest radius</source>
@@ -3858,7 +3858,7 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     </message>
     <message>
       <source>Yield safety</source>
-      <translation>Sicherheit (Fließen)</translation>
+      <translation>Fließsicherheit</translation>
     </message>
     <message>
       <source>Yield stress over the largest von Mises stress in a strut; 0 for no limit</source>

@@ -362,7 +362,7 @@
     </message>
     <message>
       <source>Faces of the solid whose skin has a thickness of its own, each with its number in SkinThicknesses</source>
-      <translation>Facce del solido la cui pelle ha uno spessore proprio, ognuna con il suo numero in SkinThicknesses</translation>
+      <translation>Facce del solido il cui guscio ha uno spessore proprio, ognuna con il suo numero in SkinThicknesses</translation>
     </message>
     <message>
       <source>Faces round which the part stays solid, up to KeepDistance, and solids whose room in it does</source>
@@ -606,7 +606,7 @@
     </message>
     <message>
       <source>Mass of the finished part, with its skin</source>
-      <translation>Massa del pezzo finito, con la sua pelle</translation>
+      <translation>Massa del pezzo finito, con il suo guscio</translation>
     </message>
     <message>
       <source>Material</source>
@@ -802,7 +802,7 @@
     </message>
     <message>
       <source>Percent at the end: at the skin, or where the field is largest</source>
-      <translation>Percento alla fine: alla pelle, o dove il campo è massimo</translation>
+      <translation>Percento alla fine: al guscio, o dove il campo è massimo</translation>
     </message>
     <message>
       <source>Percent at the start: deep inside, or where the field is smallest</source>
@@ -982,7 +982,7 @@
     </message>
     <message>
       <source>Shell Thickness</source>
-      <translation>Spessore guscio</translation>
+      <translation>Spessore del guscio</translation>
     </message>
     <message>
       <source>Short struts with a free end, taken away</source>
@@ -1014,11 +1014,11 @@
     </message>
     <message>
       <source>Skin Faces</source>
-      <translation>Facce con pelle propria</translation>
+      <translation>Facce con guscio proprio</translation>
     </message>
     <message>
       <source>Skin Thicknesses</source>
-      <translation>Spessori della pelle</translation>
+      <translation>Spessori del guscio</translation>
     </message>
     <message>
       <source>Slicer</source>
@@ -1214,7 +1214,7 @@
     </message>
     <message>
       <source>Thickness of the skin below each of the SkinFaces, in mm; 0 leaves the face open</source>
-      <translation>Spessore della pelle sotto ognuna delle SkinFaces, in mm; 0 lascia la faccia aperta</translation>
+      <translation>Spessore del guscio sotto ognuna delle SkinFaces, in mm; 0 lascia la faccia aperta</translation>
     </message>
     <message>
       <source>Thinnest Strut</source>
@@ -2263,7 +2263,7 @@
     </message>
     <message>
       <source>a closed skin</source>
-      <translation>pelle chiusa</translation>
+      <translation>guscio chiuso</translation>
     </message>
     <message>
       <source>at least {limit}</source>
@@ -3106,7 +3106,7 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     </message>
     <message>
       <source>skin</source>
-      <translation>pelle</translation>
+      <translation>guscio</translation>
     </message>
     <message>
       <source>tile</source>
@@ -3801,8 +3801,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Grafico</translation>
     </message>
     <message>
-      <source>Remove thin struts that carry little</source>
-      <translation>Rimuovi le aste sottili che portano poco</translation>
+      <source>Remove struts that carry little</source>
+      <translation>Togli aste che portano poco</translation>
     </message>
     <message>
       <source>Smallest radius</source>
@@ -3909,7 +3909,7 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     </message>
     <message>
       <source>Depth, dense skin</source>
-      <translation>Profondità, pelle densa</translation>
+      <translation>Profondità, guscio denso</translation>
     </message>
     <message>
       <source>Direction</source>
@@ -4214,7 +4214,7 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     </message>
     <message>
       <source>Along the skin</source>
-      <translation>Lungo la pelle</translation>
+      <translation>Lungo il guscio</translation>
     </message>
     <message>
       <source>Cell that is laid in</source>
@@ -4298,7 +4298,7 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     </message>
     <message>
       <source>Of faces with a skin of their own: the thickness of those that are picked next; a face that has another gets it, one that has it goes back to the usual skin, and 0 leaves it open. Of what is kept solid: the distance from all its faces</source>
-      <translation>Delle facce con pelle propria: lo spessore di quelle che si scelgono dopo; una faccia con un altro lo riceve, una che lo ha torna alla pelle solita, e 0 la lascia aperta. Di ciò che resta pieno: la distanza da tutte le sue facce</translation>
+      <translation>Delle facce con guscio proprio: lo spessore di quelle che si scelgono dopo; una faccia con un altro lo riceve, una che lo ha torna al guscio solito, e 0 la lascia aperta. Di ciò che resta pieno: la distanza da tutte le sue facce</translation>
     </message>
     <message>
       <source>On the other side</source>
@@ -4346,7 +4346,7 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     </message>
     <message>
       <source>Skin thickness</source>
-      <translation>Spessore della pelle</translation>
+      <translation>Spessore del guscio</translation>
     </message>
     <message>
       <source>TPMS</source>

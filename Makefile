@@ -34,24 +34,24 @@ demo: setup ## model a bracket, fill it, and leave files and a picture in build/
 	@$(SCREEN) $(PYTHON) demo/render.py graded build/demo/graded.png
 	@ls -l build/demo
 
-test: setup ## style, types, and every test but the slow ones
-	@$(SIDE_BY_SIDE) $(WINDOWS) , "lint=make --no-print-directory lint" $(IN_FREECAD) , \
-		"core=make --no-print-directory test-core"
+test: MARK := not slow and not costly
+test: setup ## style, types, and every test but the slow and the costly ones (500 s of a processor)
+	@$(SIDE_BY_SIDE) $(WINDOWS) , "lint=make --no-print-directory lint" $(OTHERS)
 
 test-all: MARK :=
-test-all: test ## the same with the slow tests
+test-all: setup ## the same with all of these
+	@$(SIDE_BY_SIDE) $(WINDOWS) , "lint=make --no-print-directory lint" $(OTHERS)
 
-test-slow: MARK := slow
+test-slow: MARK := slow or costly
 test-slow: setup ## what test-all has beyond test
-	@$(SIDE_BY_SIDE) $(WINDOWS) , $(IN_FREECAD) , \
-		"core=make --no-print-directory test-core"
+	@$(SIDE_BY_SIDE) $(WINDOWS) , $(OTHERS)
 
 # Windows wait more than they compute: they have two lanes, each run a screen and a profile of its
 # own, and the processor first. The lanes take about as long as each other. Scripts of a group share
 # a window, as FreeCAD takes long to start; a script that is in no group has its own.
 GUI_GROUPS := commands+display+manners+tree fresh+lattice_infill+look \
-	panel+reach+sizing+study window+escape+languages
-GUI_FIRST := commands+display+manners+tree window+escape+languages preferences
+	panel+reach+sizing+study window+escape+languages preferences+print
+GUI_FIRST := commands+display+manners+tree window+escape+languages preferences+print
 GUI_ALONE := $(filter-out $(subst +, ,$(GUI_GROUPS)),\
 	$(patsubst drive_%.py,%,$(notdir $(sort $(wildcard tests/gui/drive_*.py)))))
 SIDE_BY_SIDE = $(PYTHON) tools/side_by_side.py
@@ -60,6 +60,7 @@ lane = $(foreach group,$(1),"window-$(group)=tools/run_gui.sh \
 WINDOWS = $(call lane,$(GUI_FIRST)) , \
 	$(call lane,$(filter-out $(GUI_FIRST),$(GUI_GROUPS) $(GUI_ALONE)))
 IN_FREECAD = "freecad=make --no-print-directory test-freecad"
+OTHERS = $(IN_FREECAD) , "core=make --no-print-directory test-core"
 
 check: setup-light ## style, types, and the tests nearest to what changed, in FreeCAD too, in a minute (SECONDS=50, BASE=main)
 	@$(PYTHON) tools/check.py $(if $(BASE),--base $(BASE)) $(if $(SECONDS),--seconds $(SECONDS))
@@ -78,7 +79,9 @@ test test-all test-slow check test-core test-random test-freecad test-in-freecad
 	test-freecad-1 test-newest: export OPENBLAS_NUM_THREADS := 1
 
 # Which tests: pytest's word for it, that the windows' scripts know, too (tools/run_gui.sh). By way
-# of the environment, so that the parts of test-all and test-slow see it.
+# of the environment, so that the parts of test, test-all and test-slow see it. Costly ones, that
+# `test` leaves out, run on other versions: of the engine in test-newest, of the workbench and its
+# windows in test-freecad-1, where no mark is given.
 export MARK ?= not slow
 # What the tests take of the processor is told at the end, with the costliest cases.
 COST := -p tools.processor_time

@@ -5,7 +5,7 @@
 #     tools/run_gui.sh tests/gui/drive_lattice_infill.py open_a_face  # one, or some
 #     tools/run_gui.sh tests/gui/drive_tree.py tests/gui/drive_fresh.py   # several in one window
 #     tools/run_gui.sh --list tests/gui/drive_lattice_infill.py       # their names
-# MARK="not slow" leaves out the checks that are marked as slow, MARK=slow the others, as pytest's -m.
+# MARK chooses by the checks' marks, as pytest's -m: "not slow" leaves out those marked as slow.
 # The exit code is the one that the script leaves with (by os._exit), or 124 after GUI_TIMEOUT
 # seconds. Real clicks can go astray on a busy machine, so a check that fails has a second try on
 # its own (GUI_TRIES=1: none): what held only then is told in lines that begin with AGAIN. Pictures and figures go to GUI_OUT (default: build/gui). Every run has a screen and a
@@ -22,10 +22,6 @@ while [[ "${1:-}" = *.py ]]; do
   shift
 done
 export GUI_CHECKS="$*"
-if [ "${MARK:-}" = slow ] && [ -z "$GUI_CHECKS" ] && ! grep -q '^@slow$' "${scripts[@]}"; then
-  echo "${scripts[*]}: no check is slow"
-  exit
-fi
 script=${scripts[0]}
 if [ ${#scripts[@]} -gt 1 ]; then
   export GUI_SCRIPTS="${scripts[*]}"

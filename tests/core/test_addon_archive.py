@@ -12,6 +12,8 @@ from types import ModuleType
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+# The archive is built first.
+pytestmark = pytest.mark.costly
 
 
 def tool(name: str) -> ModuleType:

@@ -24,6 +24,7 @@ def part() -> volfrep.Part:
     return volfrep.fill(samples.box(), **BOX)
 
 
+@pytest.mark.costly
 def test_a_part_is_the_same_from_a_file_a_mesh_and_arrays(
     tmp_path: Path, part: volfrep.Part
 ) -> None:

@@ -8,6 +8,8 @@ from types import SimpleNamespace
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+# All modules are read first.
+pytestmark = pytest.mark.costly
 _spec = importlib.util.spec_from_file_location("check", ROOT / "tools" / "check.py")
 check = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(check)

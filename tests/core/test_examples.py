@@ -20,6 +20,7 @@ WITH_EXAMPLES = sorted(
 )
 
 
+@pytest.mark.costly_cases("volfrep.api.calls", "volfrep.api.part")
 @pytest.mark.slow_cases(
     "volfrep.studies.sweep",
     "volfrep.jobs.figures.find",

@@ -147,6 +147,7 @@ def test_a_script_is_short_and_takes_public_names_only(name: str) -> None:
                 assert node.attr in volfrep.__all__
 
 
+@pytest.mark.costly_cases("a_mesh", "own_field", "report_3mf", "sized_for_loads")
 @pytest.mark.slow_cases("dask_study", "optimise", "own_cell", "tpms_formula", "fem_field")
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_a_script_does_what_it_says(

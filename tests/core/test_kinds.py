@@ -221,6 +221,7 @@ def test_a_new_kind_of_one_module_fills_a_box(solid: TriangleMesh) -> None:
     assert part.spec["cell"] == "Rods"
 
 
+@pytest.mark.costly
 def test_a_new_kind_is_forecast_and_previewed(solid: TriangleMesh) -> None:
     spec = rod_spec(shell=1)
     forecast = forecast_fill(solid, spec)

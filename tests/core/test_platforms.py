@@ -151,6 +151,7 @@ def test_a_file_that_another_program_holds_open_is_named(tmp_path, monkeypatch):
     assert target.read_bytes() == b"old"
 
 
+@pytest.mark.costly
 @pytest.mark.skipif(os.name == "nt", reason="the locale is an environment variable elsewhere")
 def test_text_is_utf_8_whatever_the_locale(tmp_path):
     """No file is read or written in the system's own encoding, which Windows has not in UTF-8."""

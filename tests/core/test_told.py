@@ -24,6 +24,7 @@ def test_a_graph_is_told_by_its_struts_and_not_by_cells_that_it_has_not():
     assert cube.report.figures["Description"].startswith("BCC lattice: 1 cells, 20 struts")
 
 
+@pytest.mark.costly_cases("delaunay-Delaunay")
 @pytest.mark.parametrize(("network", "name"), [("voronoi", "Voronoi"), ("delaunay", "Delaunay")])
 def test_a_random_graph_is_forecast_without_cells(network, name):
     solid = volfrep.as_solid(trimesh.creation.box((20, 20, 20)))

@@ -49,6 +49,7 @@ def test_layers_of_a_part(tmp_path: Path) -> None:
         part.layers(tmp_path / "more", layer=1.0, form="tif")
 
 
+@pytest.mark.costly
 def test_struts_are_sized_for_loads(tmp_path: Path) -> None:
     (tmp_path / "loads.toml").write_text(LOADS, encoding="utf-8")
     box = trimesh.creation.box(bounds=((0, 0, 0), (20, 10, 10)))
@@ -74,6 +75,7 @@ LINES = [
 ]  # fmt: skip
 
 
+@pytest.mark.costly
 def test_a_cell_is_given_by_lines_a_dict_or_arrays() -> None:
     drawn = volfrep.cell_from_lines("X", np.array(LINES, float))
     nodes, struts = drawn.cell.nodes, drawn.cell.struts
@@ -103,6 +105,7 @@ def test_a_skin_is_as_thick_as_a_function_says() -> None:
         specified(None, {"shell": "x"}, None, lambda s: np.array([[0.0] * 3, [9] * 3]))
 
 
+@pytest.mark.costly
 def test_a_study_takes_meshes_and_lists(tmp_path: Path) -> None:
     box = trimesh.creation.box((20, 20, 20))
     study = volfrep.Study(parts=[box], vary={"cell": ["BCC", "CVC"]}, do=["forecast"])
@@ -113,6 +116,7 @@ def test_a_study_takes_meshes_and_lists(tmp_path: Path) -> None:
     volfrep.evaluate(study, [{"cell": "BCC"}], tmp_path / "more", workers=1, progress=True)
 
 
+@pytest.mark.costly
 def test_results_show_figures_and_no_arrays() -> None:
     box = trimesh.creation.box((20, 20, 10))
     sheet = volfrep.block((1, 1, 1), cell="Gyroid", cell_size=9, wall_thickness=1, resolution=12)

@@ -15,9 +15,12 @@ import volfrep
 from volfrep.api import specified
 from volfrep.design.parameters.keywords import FIELDS, KEYS
 
-TETRAHEDRON = (
-    [[0, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9]],
-    [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+#: Looked at once: a solid is taken as it is.
+TETRAHEDRON = volfrep.as_solid(
+    (
+        [[0, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9]],
+        [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+    )
 )
 CELL: dict[str, Any] = {"cell": "BCC", "cell_size": 9, "strut_radius": 1, "resolution": 8}
 NODES = [[0, 0, 0], [1, 1, 1]]
@@ -144,7 +147,9 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "coupons(cells)": lambda value: volfrep.coupons(None, ["cube"], cells=value, **CELL),
     "coupons(first)": lambda value: volfrep.coupons(None, ["ladder"], first=value, **CELL),
     "orient(part)": lambda value: volfrep.orient(value),
-    "orient(unit)": lambda value: volfrep.orient(TETRAHEDRON, unit=value or "x")
+    "orient(unit)": lambda value: volfrep.orient(
+        (TETRAHEDRON.vertices, TETRAHEDRON.triangles), unit=value or "x"
+    )
     if not isinstance(value, np.ndarray) else volfrep.as_solid(value),
     "slicer_infill(part)": lambda value: volfrep.slicer_infill(value),
     "slicer_infill(wanted)": lambda value: volfrep.slicer_infill(

@@ -31,6 +31,7 @@ def box_of(shape):
     return (box.XLength, box.YLength, box.ZLength)
 
 
+@pytest.mark.costly_cases("bracket")
 def test_is_one_valid_solid_of_the_stated_size(example):
     part, _, box = example
     assert [obj.Name for obj in part.Document.Objects if not obj.isValid()] == []
@@ -41,6 +42,7 @@ def test_is_one_valid_solid_of_the_stated_size(example):
     assert 0.2 < part.Shape.Volume / (box[0] * box[1] * box[2]) < 0.6
 
 
+@pytest.mark.costly_cases("bracket")
 def test_tessellates_to_a_closed_mesh(example):
     part, _, _ = example
     for deflection in (0.2, 0.05):
@@ -51,6 +53,7 @@ def test_tessellates_to_a_closed_mesh(example):
         assert mesh.Volume == pytest.approx(part.Shape.Volume, rel=0.01)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("piston_rod")
 def test_follows_its_spreadsheet(example):
     part, sheet, box = example
@@ -62,6 +65,7 @@ def test_follows_its_spreadsheet(example):
     assert box_of(part.Shape) == pytest.approx((box[0] + 10, box[1], box[2]), abs=0.02)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("bracket")
 def test_follows_all_its_sizes_at_once(example):
     """Larger by a twentieth, but for a few radii of fillets, which do not change."""

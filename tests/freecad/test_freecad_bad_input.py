@@ -31,6 +31,7 @@ def set_expression(name, expression):
     return lambda obj: obj.setExpression(name, expression)
 
 
+@pytest.mark.costly_cases("<lambda>-words0")
 @pytest.mark.parametrize(
     ("spoil", "words"),
     [

@@ -147,6 +147,7 @@ def test_moving_the_part_around_both_runs_nothing(doc, part, body, runs):
     assert len(runs) == 1
 
 
+@pytest.mark.costly_cases("mesh")
 @pytest.mark.parametrize("kind", ["mesh", "link", "part"])
 def test_filling_what_is_not_a_plain_solid(doc, part, body, kind):
     if kind == "mesh":
@@ -178,6 +179,7 @@ def test_a_curved_solid_is_meshed_closely(doc):
     assert read(obj).volume == pytest.approx(obj.Shape.Volume, rel=3e-3)
 
 
+@pytest.mark.costly
 def test_the_display_does_not_change_the_mesh(doc):
     obj = doc.addObject("Part::Feature", "Torus")
     obj.Shape = Part.makeTorus(30, 10)

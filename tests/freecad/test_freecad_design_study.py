@@ -37,6 +37,7 @@ def study(doc, infill):
     return made
 
 
+@pytest.mark.costly
 def test_a_study_has_a_design_for_each_combination(study):
     rows = designs_of_study(study)
     assert study.Designs == len(rows) == 6

@@ -55,6 +55,7 @@ def test_there_is_a_document_of_every_release():
     assert [path.stem for path in FIXTURES][-1] == f"infill-{volfrep.__version__}"
 
 
+@pytest.mark.costly_cases("infill-0.1.0-schema-3")
 @pytest.mark.parametrize("path", FIXTURES, ids=lambda path: path.stem)
 def test_documents_of_older_releases(path, reopened, runs):
     doc = reopened(path)
@@ -214,6 +215,7 @@ def test_a_copy_in_another_document_brings_its_solid(infill):
         App.closeDocument(other.Name)
 
 
+@pytest.mark.costly
 def test_edits_undone_and_redone(doc, infill, runs):
     radii = [0.62, 0.69, 0.76, 0.83]
     seen = [digest(infill)]

@@ -119,6 +119,7 @@ def test_pieces_that_do_not_touch_are_solids_of_their_own():
     assert [solid.Volume for solid in both.Solids] == pytest.approx([one.Volume] * 2)
 
 
+@pytest.mark.costly
 def test_what_cannot_be_exact(tmp_path):
     frame = result("BCC", (1, 1, 1)).wireframe
     # As far as their middles: edges and diagonals are 55 degrees apart.

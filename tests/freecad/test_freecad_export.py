@@ -76,6 +76,7 @@ def test_stl(infill, tmp_path, way):
     assert read.Volume == pytest.approx(infill.Volume.Value, rel=1e-4)
 
 
+@pytest.mark.costly
 def test_export_lies_on_the_base_whatever_part_it_is_in(doc, infill, tmp_path):
     part = doc.addObject("App::Part", "Holder")
     part.addObject(infill)
@@ -368,6 +369,7 @@ def test_large_files_are_estimated_and_meshes_for_the_printer_are_not(infill):
     assert "MB" in estimate_export(infill, by_title["CalculiX, beams"])
 
 
+@pytest.mark.costly
 def test_a_file_for_a_printer_keeps_limits_and_compensates(doc, box, tmp_path):
     path = tmp_path / "part.stl"
     box.Length = box.Width = box.Height = 12

@@ -113,6 +113,7 @@ def test_why_a_mesh_is_stale(doc, infill):
     assert "cannot be computed" in why_stale(infill)
 
 
+@pytest.mark.costly
 def test_what_is_made_of_a_stale_mesh_says_so(doc, infill, tmp_path):
     target = tmp_path / "out.stl"
     assert export_mesh(infill, target) == ()
@@ -128,6 +129,7 @@ def test_what_is_made_of_a_stale_mesh_says_so(doc, infill, tmp_path):
     assert make_solid(doc, infill).Label2 == said
 
 
+@pytest.mark.costly
 def test_a_choice_that_is_at_none_of_its_values_is_refused(doc, box, tmp_path):
     make_lattice_infill(doc, box, **SMALL)
     doc.recompute()

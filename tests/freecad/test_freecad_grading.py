@@ -102,6 +102,7 @@ def test_the_file_of_a_cell_is_shown_with_a_cell_of_ones_own(doc, box):
     assert "Hidden" in obj.getEditorMode("CellFile")
 
 
+@pytest.mark.costly_cases("values2-edges2-radii2")
 @pytest.mark.slow_but("values2-edges2-radii2", "values7-None-None")
 @pytest.mark.parametrize(
     ("values", "edges", "radii"),
@@ -169,6 +170,7 @@ def result_of(doc, values, placement=None):
 STRESS = [10.0, 10.0, 10.0, 80.0, 80.0, 80.0]
 
 
+@pytest.mark.costly
 def test_a_fem_result_drives_the_radius(doc, box):
     result = result_of(doc, STRESS)
     obj = make_lattice_infill(
@@ -268,6 +270,7 @@ def test_file_and_result_at_once_are_refused(doc, infill):
     assert "clear either RadiusField or RadiusResult" in infill.Status
 
 
+@pytest.mark.costly
 def test_saved_and_reopened(doc, box, runs, tmp_path):
     result = result_of(doc, STRESS)
     obj = make_lattice_infill(

@@ -83,6 +83,7 @@ def test_properties_are_grouped_and_described(infill):
     assert hidden == {"Fingerprint", "SchemaVersion"} | stored
 
 
+@pytest.mark.costly_cases("JointFillet-0.5", "CellType-BCC", "Resolution-14")
 @pytest.mark.parametrize(
     ("name", "value"),
     [
@@ -212,6 +213,7 @@ def test_moving_the_object_keeps_its_mesh_and_place(doc, infill, runs):
     assert infill.Placement.Rotation.isSame(place.Rotation, 1e-9)
 
 
+@pytest.mark.costly
 def test_expressions_and_spreadsheets_drive_it(doc, infill, box):
     sheet = doc.addObject("Spreadsheet::Sheet", "Sheet")
     sheet.set("A1", "0.8 mm")
@@ -328,6 +330,7 @@ def test_an_older_object_gets_what_it_lacks(doc, infill):
     assert infill.isValid(), infill.getStatusString()
 
 
+@pytest.mark.costly
 def test_without_auto_update_it_waits_for_the_command(doc, infill, runs):
     before = digest(infill)
     infill.AutoUpdate = False
@@ -420,6 +423,7 @@ def come_of(asked):
     return forecast, filled, loaded(filled)
 
 
+@pytest.mark.costly
 def test_a_mesh_that_is_made_beside_is_the_one_of_a_recompute(doc, infill):
     infill.StrutRadius = 0.8
     asked = infill.Proxy.begin(infill)
@@ -442,6 +446,7 @@ def test_a_mesh_that_is_made_beside_is_the_one_of_a_recompute(doc, infill):
     assert infill.Status == UP_TO_DATE
 
 
+@pytest.mark.costly
 def test_values_that_change_while_it_is_made_leave_it_touched(doc, infill):
     infill.StrutRadius = 0.8
     asked = infill.Proxy.begin(infill)

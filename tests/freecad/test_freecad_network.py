@@ -20,6 +20,7 @@ def box(doc):
     return solid
 
 
+@pytest.mark.costly
 def test_a_voronoi_network_fills_a_solid_and_follows_its_seed(doc, box):
     obj = make_lattice_infill(
         doc, box, Network="Voronoi", NetworkPoints=15, StrutRadius=0.6, ShellThickness=1.5
@@ -220,6 +221,7 @@ def ends_from(obj, face):
     return [Part.Vertex(*node).distToShape(face)[0] for node in struts.nodes.tolist()]
 
 
+@pytest.mark.costly
 def test_the_ends_of_struts_lie_on_a_wings_skins(doc, wing):
     made, names = wing
     obj = make_lattice_infill(
@@ -237,6 +239,7 @@ def test_the_ends_of_struts_lie_on_a_wings_skins(doc, wing):
     assert all(abs(far - 6) < 0.2 * deviation for far in away[-on_face:])
 
 
+@pytest.mark.costly
 def test_a_face_that_is_no_rectangle_serves_and_one_of_three_sides_does_not(doc):
     corners = [(0, 0, 0), (30, 4, 0), (26, 22, 0), (-3, 17, 0), (0, 0, 0)]
     base = doc.addObject("Part::Feature", "Prism")

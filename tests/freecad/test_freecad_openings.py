@@ -18,6 +18,7 @@ def infill(doc, box):
     return obj
 
 
+@pytest.mark.costly
 def test_a_picked_face_is_left_open(doc, box, infill):
     assert infill.Voids == 1
     closed = infill.Volume.Value
@@ -105,6 +106,7 @@ def test_a_feature_of_a_body_stands_for_it(doc):
     assert obj.Voids == 0
 
 
+@pytest.mark.costly
 def test_faces_survive_saving(doc, box, infill, tmp_path):
     infill.OpenFaces = [(box, (top_of(box),))]
     infill.DrainDiameter = 2

@@ -36,6 +36,7 @@ def test_its_mesh_is_what_hangs_over(infill, check):
     assert check.Mesh.Area > 26 * 16 - 60
 
 
+@pytest.mark.costly
 def test_figures(infill, check):
     report = json.loads(check.Report)
     assert "closed voids" in check.Text
@@ -61,6 +62,7 @@ def test_a_graded_lattice_has_no_largest_ball(doc, infill, check):
     assert check.LargestBall == "differs from cell to cell"
 
 
+@pytest.mark.costly
 def test_another_process_and_direction(doc, check):
     check.BuildDirection = App.Vector(0, 0, -1)
     doc.recompute()
@@ -72,6 +74,7 @@ def test_another_process_and_direction(doc, check):
     assert "unused material" in check.Findings[0]
 
 
+@pytest.mark.costly
 def test_it_follows_the_infill(doc, infill, check):
     area = check.OverhangArea.Value
     infill.CellSize = 15
@@ -99,6 +102,7 @@ def test_it_lies_where_the_infill_does(doc, infill, check):
     assert check.Mesh.BoundBox.YMax < 9
 
 
+@pytest.mark.costly
 def test_saved_and_opened(doc, check, tmp_path):
     path = str(tmp_path / "check.FCStd")
     count, name = check.Mesh.CountFacets, check.Name
@@ -126,6 +130,7 @@ def test_what_it_refuses(doc, box, infill):
     assert [obj.Name for obj in doc.Objects] == [box.Name, infill.Name]
 
 
+@pytest.mark.costly
 def test_what_it_cannot_look_at(doc, infill, check):
     check.BuildDirection = App.Vector(0, 0, 0)
     doc.recompute()

@@ -52,6 +52,7 @@ def test_the_processes_of_the_window_find_the_engine():
         assert threads_there == 1
 
 
+@pytest.mark.costly
 def test_a_shape_is_made_in_a_freecad_of_its_own():
     """Without a word of ours on the way, and the same as here; an error arrives as it is."""
     from freecad_volfrep.bridge.faceted import faceted_solid

@@ -40,6 +40,7 @@ def digest(obj):
     return obj.Mesh.CountFacets, round(obj.Mesh.Volume, 3), round(obj.Mesh.Area, 3)
 
 
+@pytest.mark.costly
 def test_every_node_gets_the_radius_that_was_stored(infill):
     uniform = digest(infill)
     nodes, radii = sized(infill)
@@ -53,6 +54,7 @@ def test_every_node_gets_the_radius_that_was_stored(infill):
     assert f"{len(radii)} points of Size Lattice" in infill.Report
 
 
+@pytest.mark.costly
 def test_they_are_saved_opened_and_undone(doc, infill, runs, tmp_path):
     uniform = digest(infill)
     doc.openTransaction("Size Lattice")

@@ -87,6 +87,7 @@ def test_thin_struts_are_removed_and_stay_so_in_the_document(infill):
     assert infill.Bodies == 1
 
 
+@pytest.mark.costly
 def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
     analyses = [loaded(infill)]
     assert analyses_of(infill) == analyses
@@ -134,6 +135,7 @@ def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
     assert state.displacement.max() == pytest.approx(moved, rel=1e-3)
 
 
+@pytest.mark.costly
 def test_what_struts_carry_is_kept_with_the_document(infill, tmp_path):
     analysis = loaded(infill)
     outcome = sized(infill, [analysis])
@@ -234,6 +236,7 @@ def test_what_cannot_be_sized_is_told(doc, infill):
     assert "The limit of displacement cannot be held" in outcome.summary()
 
 
+@pytest.mark.costly
 def test_a_script_sizes_in_one_call(infill):
     loaded(infill)
     outcome = size_lattice(infill, safety=2, thinnest=0.3, thickest=1.6, prove=False)

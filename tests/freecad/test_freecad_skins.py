@@ -61,6 +61,7 @@ def test_a_face_is_picked_changed_and_left_again(doc, box, infill):
         pick(infill, "SkinFaces", box, "Edge1", 2.0)
 
 
+@pytest.mark.costly
 def test_what_is_kept_solid_is_no_room_of_the_lattice(doc, box, infill):
     pick(infill, "KeepSolidAround", box, top_of(box))
     infill.KeepDistance = 6
@@ -85,6 +86,7 @@ def test_what_is_kept_solid_is_no_room_of_the_lattice(doc, box, infill):
         pick(infill, "KeepSolidAround", box, "Edge1")
 
 
+@pytest.mark.costly_but("values2-thickness of a face's skin")
 @pytest.mark.parametrize(
     ("values", "said"),
     [

@@ -197,6 +197,7 @@ def test_decks_for_calculix(doc, infill, tmp_path, content, low):
     assert min(places) == pytest.approx(low, abs=1e-2)
 
 
+@pytest.mark.costly
 def test_every_file_and_every_shape_says_what_it_takes(doc, infill):
     for content in CONTENTS:
         assert re.search(r": about [\d.]+ s, [\d.]+ MB", estimate_file(infill, content))
@@ -204,6 +205,7 @@ def test_every_file_and_every_shape_says_what_it_takes(doc, infill):
         assert "about" in kind.predict(infill)
 
 
+@pytest.mark.costly
 def test_what_is_not_on_offer(doc, box, infill, tmp_path):
     copy = doc.addObject("Mesh::Feature", "Copy")
     copy.Mesh = infill.Mesh

@@ -32,6 +32,7 @@ def cube(size, at=(0.0, 0.0, 0.0)):
     return TriangleMesh(corners * size + np.array(at), np.array(faces, np.int32))
 
 
+@pytest.mark.costly
 def test_a_faceted_lattice(tmp_path):
     mesh = block(LatticeSpec("CVC", 10, 1, resolution=8), (1, 1, 1)).mesh
     write_step_faceted(mesh, tmp_path / "cell.step")

@@ -40,6 +40,7 @@ def inside(obj):
     return 12000.0 - 26.0 * 16.0 * 16.0, 26.0 * 16.0 * 16.0
 
 
+@pytest.mark.costly
 def test_the_mesh_has_the_relative_density_that_drives_the_radius(doc, box):
     obj = driven(doc, box, "Relative density", TargetDensity=0.25)
     doc.recompute()
@@ -51,6 +52,7 @@ def test_the_mesh_has_the_relative_density_that_drives_the_radius(doc, box):
     assert not [text for text in obj.Warnings if "missed" in text]
 
 
+@pytest.mark.costly
 def test_the_part_has_the_mass_that_drives_the_radius_in_its_material(doc, box):
     obj = driven(doc, box, "Mass", TargetMass=20.0, PrintMaterial="AlSi10Mg")
     doc.recompute()
@@ -73,6 +75,7 @@ def test_a_heavier_material_asks_for_another_mass(doc, box):
     assert obj.StrutRadius.Value == pytest.approx(thick, rel=0.02)
 
 
+@pytest.mark.costly
 def test_the_lattice_has_the_stiffness_along_a_direction_of_its_material(doc, box):
     obj = driven(doc, box, "Stiffness", TargetStiffness=40.0, PrintMaterial="PA12")
     obj.StiffnessDirection = App.Vector(1, 1, 1)
@@ -285,6 +288,7 @@ def test_the_material_chosen_for_a_shape_is_taken_over(doc, box):
         specification_of(obj)
 
 
+@pytest.mark.costly_cases("TargetStiffness-MPa")
 @pytest.mark.parametrize(("name", "unit"), [("TargetMass", "g"), ("TargetStiffness", "MPa")])
 def test_expressions_say_targets_in_the_unit_that_is_shown(doc, box, name, unit):
     obj = driven(doc, box, name.removeprefix("Target"), PrintMaterial="PA12", **{name: 20.0})

@@ -26,6 +26,7 @@ def hidden(obj, *names):
     return [HIDDEN in obj.getEditorMode(name) for name in names]
 
 
+@pytest.mark.costly
 def test_a_gyroid_fills_a_solid_and_shows_what_applies(box) -> None:
     doc = box.Document
     infill = make_lattice_infill(

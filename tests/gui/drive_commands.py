@@ -25,6 +25,7 @@ from driving import (
     click_item,
     click_menu,
     context_menu,
+    costly,
     drawn_share,
     figures,
     infills,
@@ -250,6 +251,7 @@ def type_it(doc, obj):
     )
 
 
+@costly
 def check_the_mesh(doc, obj):
     """Check Mesh reports on a good mesh; what it says can be copied and saved."""
     select(obj)
@@ -307,6 +309,7 @@ def check_a_broken_mesh():
     doc.removeObject(crossing.Name)
 
 
+@costly
 def read_the_statistics(doc, obj):
     """Statistics are those of all infills where none is selected."""
     select()
@@ -384,6 +387,7 @@ def compute_what_walls_do(doc, obj):
     close("VolfrepCellLibrary")
 
 
+@costly
 def use_the_cell_library(doc, obj):
     """The library shows cells, refuses wrong ones, makes one of a drawing, and applies it."""
     select(obj)
@@ -520,6 +524,7 @@ def menu_of(doc, obj):
     return texts, ours
 
 
+@costly
 def look_at_the_context_menus(doc, box, obj):
     """The tree offers what applies, and nothing else, in our workbench and in others."""
     texts, ours = menu_of(doc, obj)

@@ -19,6 +19,7 @@ from driving import (
     check,
     click,
     comes_true,
+    costly,
     figures,
     move_mouse,
     panel,
@@ -328,6 +329,7 @@ def colourful(name):
     return float(((green > 1.4 * blue) & (green > 90)).mean())
 
 
+@costly
 def colours(obj):
     """Coloured by radius, cell size and overhang, with a legend; the mouse reads off values."""
     from freecad_volfrep.gui.draw.coloured_struts import legend

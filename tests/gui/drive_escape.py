@@ -32,6 +32,7 @@ from driving import (
     click,
     click_menu,
     comes_true,
+    costly,
     figures,
     panel,
     panel_part,
@@ -275,6 +276,7 @@ def leave_check_mesh(obj):
     escape(lambda: select(obj), lambda: click(toolbar_button("Check Mesh")))
 
 
+@costly
 def leave_an_update(obj):
     """Update Lattice Infill."""
     obj.AutoUpdate = False

@@ -21,6 +21,7 @@ from driving import (
     click,
     click_in_tree,
     click_menu,
+    costly,
     figures,
     look_at_all,
     panel,
@@ -65,6 +66,7 @@ def answered(command, button):
     return told[0]
 
 
+@costly
 def a_stale_mesh_is_asked_about():
     doc, _, obj = filled("Stale")
     before = obj.Triangles
@@ -124,6 +126,7 @@ def one_click_updates_what_is_stale():
     picture("stale_bar_gone")
 
 
+@costly
 def a_mesh_that_comes_is_waited_for():
     """A command that needs the mesh of values that are being computed comes after them, unasked."""
     _, _, obj = filled("Coming")

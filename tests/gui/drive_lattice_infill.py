@@ -27,6 +27,7 @@ from driving import (
     click_item,
     click_menu,
     comes_true,
+    costly,
     drawn_share,
     fail,
     figures,
@@ -475,6 +476,7 @@ def cancel_a_creation(doc, box, fill):
     check("the undo stack is as before", doc.UndoCount == undo_before, doc.UndoNames)
 
 
+@costly
 def check_the_print(doc, obj):
     """Print Check shows in red, on the infill, what hangs over."""
     obj.Base.Visibility = False
@@ -521,6 +523,7 @@ def open_a_face(doc, obj):
     check("and can be undone", obj.Volume.Value == closed, obj.Status)
 
 
+@costly
 def pick_in_the_panel(doc, obj):
     """Open faces, a direction and a drain hole by clicks at the solid; Cancel takes them back."""
     look_at_all()
@@ -676,6 +679,7 @@ def make_a_solid(doc, obj):
     obj.Visibility = True
 
 
+@costly
 def make_an_analysis(doc, obj):
     """FEM Analysis asks for the model, with figures, and makes an analysis."""
     asked = []
@@ -735,6 +739,7 @@ def open_an_invalid_one(doc, obj):
     Gui.getMainWindow().findChild(QtGui.QTextEdit, "Report view").clear()
 
 
+@costly
 def see_what_suits(doc, obj):
     """Enter closes nothing, without its preview the solid is seen, and first values suit."""
     open_to_edit(obj)
@@ -783,6 +788,7 @@ def choose_walls(doc, obj):
     picture("walls_made")
 
 
+@costly
 def choose_networks(doc, obj):
     """The third tab: points of a Voronoi network, cells along faces that are clicked at."""
     open_to_edit(obj)

@@ -20,6 +20,7 @@ from driving import (
     answer_panel,
     check,
     click,
+    costly,
     figures,
     infills,
     look_along,
@@ -229,6 +230,7 @@ def fill_cut_faces_in_every_mode(doc, obj):
     check("closed, nothing is cut", shares("look_6_whole_again")["cut"] < 0.001)
 
 
+@costly
 def show_the_colours_chosen(doc, obj):
     """Who changes the colours of the view sees them at once."""
     view = obj.ViewObject

@@ -18,6 +18,7 @@ from driving import (
     answer_panel,
     check,
     click,
+    costly,
     figures,
     hover,
     in_sight,
@@ -198,6 +199,7 @@ def export_layers(doc, obj):
         f"{len(list(folder.glob('*.svg')))} layers"), asked)  # fmt: skip
 
 
+@costly
 def read_many_notes(doc, obj):
     """Many sentences on a cell lie on nothing else in the Cell Library."""
     click(toolbar_button("Cell Library"))

@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
     check,
     click,
+    costly,
     figures,
     fold_sections,
     in_sight,
@@ -242,6 +243,7 @@ def see_what_the_printer_minds(doc, box):
     cancelled()
 
 
+@costly
 def drag_a_curve(doc, box):
     """A grading's curve by mouse and keys, beside its formula."""
     obj = opened(box)

@@ -21,6 +21,7 @@ from driving import (
     check,
     click,
     click_in_tree,
+    costly,
     move_mouse,
     picture,
     press_button,
@@ -87,6 +88,7 @@ def choose_word(box, text):
     settle()
 
 
+@costly
 def bands_that_follow(doc, box):
     """Make bands of a solid in the panel, change the solid, save, undo; write a project."""
     select(box)

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import FreeCADGui as Gui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from driving import PATIENCE, check, comes_true, run_checks, shoot
+from driving import PATIENCE, check, comes_true, costly, run_checks, shoot
 
 _SCRIPT = Path(__file__).with_name("quitting.py")
 
@@ -92,12 +92,14 @@ def _radii(held):
     return [float(radius) for radius in found]
 
 
+@costly
 def by_key():
     """One document, saved."""
     held = _quit("one", "key", "Discard").get("One", _Held())
     check("the mesh is in the file", held.meshes > 1000)
 
 
+@costly
 def several_documents_by_menu():
     """Also a mesh that was imported and one that was read in the Python console."""
     files = _quit("several", "menu", "Discard", "Discard", "Discard")
@@ -111,6 +113,7 @@ def during_a_job_by_window():
     check("it is asked and saved", 1.2 in _radii(held), _radii(held))
 
 
+@costly
 def during_a_job_that_is_waited_for():
     """The same of a job that a script waits for, which is cancelled first."""
     held = _quit("waited_for", "window", "Save").get("Waited", _Held())
@@ -118,11 +121,13 @@ def during_a_job_that_is_waited_for():
     check("it is asked and saved", 1.2 in _radii(held), _radii(held))
 
 
+@costly
 def after_undo():
     """Nothing was saved, and it is discarded."""
     check("no file", _quit("undone", "key", "Discard") == {})
 
 
+@costly
 def cancel_and_save():
     """FreeCAD asks; Cancel loses nothing, and what was done after it is saved."""
     held = _quit("unsaved", "window", "Cancel", "Save").get("Unsaved", _Held())

@@ -25,6 +25,7 @@ from driving import (
     choose_in_context_menu,
     click,
     click_menu,
+    costly,
     figures,
     infills,
     move_mouse,
@@ -117,6 +118,7 @@ def one_opens(how):
     settle()
 
 
+@costly
 def open_sections(obj):
     """Section View by its button, the menu, the context menu of the tree, and its shortcut."""
     select(obj)

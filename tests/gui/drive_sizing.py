@@ -18,6 +18,7 @@ from driving import (
     click_menu,
     clicks,
     comes_true,
+    costly,
     figures,
     infills,
     move_mouse,
@@ -84,6 +85,7 @@ def open_panel(obj):
     check("a click opens the panel", wait_until(lambda: sizing_panel() is not None, 10))
 
 
+@costly
 def size_and_take(doc, obj):
     """Size by clicks, look at the struts, take it, undo it."""
     before = obj.Mesh.CountFacets, obj.Volume.Value
@@ -268,6 +270,7 @@ def escape_keeps_the_best(doc, obj):
     check("the panel closes", wait_until(lambda: sizing_panel() is None, 10))
 
 
+@costly
 def show_results(doc, obj):
     """Strut Results of a lattice as it is, by the menus; cases, quantities, deformed."""
     select(obj)
@@ -336,6 +339,7 @@ def filled():
     return doc, obj
 
 
+@costly
 def load_by_clicks(doc, obj):
     """From a lattice to the report of its sizing: faces held and loaded by clicks, in one panel."""
     before, steps = [one.Name for one in doc.Objects], doc.UndoCount

@@ -19,6 +19,7 @@ from driving import (
     choose_in_context_menu,
     click,
     click_in_tree,
+    costly,
     figures,
     move_mouse,
     picture,
@@ -79,6 +80,7 @@ def rows_of(doc):
     return designs_of_study(study_of(doc))
 
 
+@costly
 def study_an_infill(doc, infill):
     """Choose what varies, start, pick a point and apply it as one undo step."""
     select(infill)

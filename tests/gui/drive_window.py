@@ -21,6 +21,7 @@ from driving import (
     are_there_jobs,
     check,
     click,
+    costly,
     figures,
     infills,
     jobs_that_never_end,
@@ -152,6 +153,7 @@ def go_on_while_it_is_made(doc, obj):
     check("nothing red was said", "ecompute failed" not in said(), said()[-2000:])
 
 
+@costly
 def change_it_while_it_is_made(doc, obj):
     """The mesh is of what was asked for, and the infill waits for a recompute."""
     obj.StrutRadius = 0.9
@@ -202,6 +204,7 @@ def go_on_after_a_refresh(doc, obj):
     check("it comes", obj.Status == "Up to date" and obj.StrutRadii[0] == 0.8, obj.Status)
 
 
+@costly
 def lose_the_engine(doc, obj):
     """A process that is killed costs a sentence; the next mesh is made by another one."""
     from freecad_volfrep.engines import engines
@@ -269,6 +272,7 @@ def while_it_is_waited_for(act, move):
     check("no key reached FreeCAD", len(App.listDocuments()) == documents)
 
 
+@costly
 def turn_while_a_check_is_waited_for(doc, obj):
     """Check Mesh waits for the engine's answer: the view turns, and nothing else is done."""
     button = toolbar_button("Check Mesh")
@@ -284,6 +288,7 @@ def zoom_while_a_recompute_waits(doc, obj):
     check("Escape ends it", "Cancelled" in obj.Status, obj.Status)
 
 
+@costly
 def go_on_after_ok(doc, boxes):
     """OK closes the panel at once; the mesh comes as a step that goes with its values."""
     box = boxes[0]
@@ -342,6 +347,7 @@ def cancel_the_panel_while_it_computes(doc, obj):
     check("the infill shows again", obj.Visibility)
 
 
+@costly
 def close_the_document_while_it_is_made(doc, obj):
     """What nobody wants any more ends without a word."""
     obj.StrutRadius = 0.9

@@ -801,6 +801,7 @@ def fold_sections(as_usual=True):
 
 
 _slow = []
+_costly = []
 
 
 def slow(function):
@@ -809,14 +810,22 @@ def slow(function):
     return function
 
 
+def costly(function):
+    """Mark a check that `make test` leaves to the windows of later FreeCADs and to `test-slow`."""
+    _costly.append(function)
+    return function
+
+
 def is_wanted(function):
-    """Whether a check is one of those that GUI_CHECKS names or, without names, that MARK means."""
+    """Whether a check is one of those that GUI_CHECKS names or, without names, that MARK means.
+
+    MARK is pytest's word: slow, costly, either with "not" before it, or several with "and" or "or".
+    """
     wanted = os.environ.get("GUI_CHECKS", "").split()
     if wanted:
         return function.__name__ in wanted
-    return {"": True, "slow": function in _slow, "not slow": function not in _slow}[
-        os.environ.get("MARK", "")
-    ]
+    marks = {"slow": function in _slow, "costly": function in _costly}
+    return bool(eval(os.environ.get("MARK") or "True", {"__builtins__": {}}, marks))
 
 
 #: Tables of checks by their names: of one script, or of those that share a window.

@@ -649,6 +649,7 @@ def test_ctrl_c_leaves_nothing(tmp_path: Path) -> None:
     assert (tmp_path / "block.stl").read_bytes() == b"old"
 
 
+@pytest.mark.costly
 def test_open_planes_and_drain_holes(
     part: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -682,6 +683,7 @@ def test_a_network_far_from_the_origin_keeps_its_volume_or_is_refused(
     assert volume == pytest.approx(np.pi * 0.25 * 37.0 + np.pi / 6.0, rel=0.01)
 
 
+@pytest.mark.costly
 def test_properties_of_a_cell_that_is_not_cubic(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

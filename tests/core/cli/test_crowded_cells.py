@@ -87,6 +87,7 @@ def test_struts_that_cross_are_counted(tmp_path: Path) -> None:
     assert crossing_struts(find_cell("BCC"), 0.05) == 0
 
 
+@pytest.mark.costly
 def test_a_cancel_is_seen_while_octants_are_refined(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -50,6 +50,7 @@ def test_a_3mf_file_holds_the_mesh_unless_told_otherwise(tmp_path: Path) -> None
         assert "<b:beam " not in model(tmp_path / name)
 
 
+@pytest.mark.costly
 def test_beams_take_no_mesh(
     tmp_path: Path,
     part: Path,
@@ -70,6 +71,7 @@ def test_beams_take_no_mesh(
     assert '<component objectid="2"/><component objectid="3"/>' in model(tmp_path / "part.3mf")
 
 
+@pytest.mark.costly
 def test_both(tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert fill(part, tmp_path / "part.3mf", "--3mf", "both") == 0
     triangles = re.search(r"triangles +([\d,]+)", capsys.readouterr().out)
@@ -81,6 +83,7 @@ def test_both(tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]) ->
     assert model(tmp_path / "block.3mf").count("<b:beam ") == 20
 
 
+@pytest.mark.costly
 def test_the_print_report(tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]) -> None:
     report = tmp_path / "out.json"
     options = ["--print-report", "lpbf", "--report", report, "--density", 4.43]

@@ -88,6 +88,7 @@ def test_a_study_does_not_write_over_its_own_file(here, capsys) -> None:
     assert (here / "index.html").read_bytes() == before
 
 
+@pytest.mark.costly
 def test_a_run_of_a_study_does_not_write_over_what_the_study_reads(studied, capsys) -> None:
     record = next((studied / "runs" / "records").iterdir())
     record.unlink()
@@ -113,6 +114,7 @@ def slices(here: Path, *more: object) -> list[str]:
     return sorted(path.name for path in (here / "layers").iterdir())
 
 
+@pytest.mark.costly
 def test_slices_take_away_the_last_run_and_nothing_else(here) -> None:
     assert slices(here, "--layer", 4)[:5] == [f"layer_{k:06d}.png" for k in range(5)]
     mine = here / "layers" / "notes.txt"
@@ -129,6 +131,7 @@ def test_slices_take_away_the_last_run_and_nothing_else(here) -> None:
     assert (here / "part.stl").exists()
 
 
+@pytest.mark.costly
 def test_slices_do_not_write_over_a_strangers_file(here, capsys) -> None:
     slices(here, "--layer", 10, "--format", "svg")
     (here / "layers" / "part.cli").write_text("mine")
@@ -138,6 +141,7 @@ def test_slices_do_not_write_over_a_strangers_file(here, capsys) -> None:
     assert len(list((here / "layers").iterdir())) == 4
 
 
+@pytest.mark.costly
 def test_what_a_killed_slice_leaves_is_known_to_the_next(here, monkeypatch) -> None:
     class KilledError(BaseException):
         pass
@@ -241,6 +245,7 @@ def studied(done: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path
     return tmp_path
 
 
+@pytest.mark.costly_cases("text0")
 @pytest.mark.slow_but("text0", "results")
 @pytest.mark.parametrize(
     "text", [DEEP, "[]", "3", "{}", '{"key": 1}', "", b"\xff\xfe", "values", "results", "errors"]
@@ -262,6 +267,7 @@ def test_a_damaged_record_is_done_anew_and_told(text, studied, capsys) -> None:
     assert [row[:5] for row in rows] == [row.split(",")[:5] for row in first.splitlines()]
 
 
+@pytest.mark.costly
 def test_a_damaged_part_of_a_study_is_written_anew(studied) -> None:
     part = next((studied / "runs" / "parts").iterdir())
     part.write_bytes(part.read_bytes()[:100])

@@ -38,6 +38,7 @@ def run(arguments, folder, **streams):
     return subprocess.run([*COMMAND, *arguments], cwd=folder, check=False, **streams)
 
 
+@pytest.mark.costly
 @needs_unix
 def test_a_full_standard_output_loses_text_and_no_file(tmp_path: Path) -> None:
     with open("/dev/full", "w", encoding="ascii") as full:
@@ -59,6 +60,7 @@ def test_a_full_standard_output_is_told_by_every_command(tmp_path: Path, argumen
     assert done.returncode == 2
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("0 1 2")
 @needs_unix
 @pytest.mark.parametrize("closed", ["1", "2", "0 1 2"])
@@ -103,6 +105,7 @@ def test_ctrl_c_during_an_import_is_an_interruption(tmp_path: Path, module, turn
     assert os.listdir(tmp_path) == []
 
 
+@pytest.mark.costly
 def test_warnings_of_libraries_are_not_for_the_user(tmp_path: Path) -> None:
     code = (
         "import sys, numpy as np, volfrep.__main__ as command, volfrep.design.cells as cells\n"
@@ -118,6 +121,7 @@ def test_warnings_of_libraries_are_not_for_the_user(tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (0, b"")
 
 
+@pytest.mark.costly_cases("one thread")
 @needs_unix
 @pytest.mark.parametrize(
     ("limit", "told"),

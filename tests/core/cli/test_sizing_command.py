@@ -64,6 +64,7 @@ def refusal(part: Path, capsys: pytest.CaptureFixture[str], *more: object) -> st
     return capsys.readouterr().err
 
 
+@pytest.mark.costly
 def test_the_sized_part_is_an_ordinary_graded_one(part: Path, tmp_path: Path) -> None:
     spec, report = (tmp_path / name for name in ("s.toml", "report.json"))
     more = ("--write-spec", spec, "--report", report, "--no-proof")
@@ -81,6 +82,7 @@ def test_the_sized_part_is_an_ordinary_graded_one(part: Path, tmp_path: Path) ->
     assert figures["strut_volume_mm3"] == pytest.approx(told["part"]["volume_mm3"], rel=3e-3)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("cell", ["CVC", "Octahedron"])
 def test_the_mass_asked_for_is_that_of_the_mesh(part: Path, cell: str) -> None:
@@ -239,6 +241,7 @@ def test_a_target_says_what_mass_struts_have_before_they_are_sized(
     assert "struts have their mass" in found["sizing"]["notes"][0]
 
 
+@pytest.mark.costly
 def test_the_steps_are_drawn(part: Path, tmp_path: Path) -> None:
     plot, report = tmp_path / "steps.svg", tmp_path / "r.json"
     more = ("--plot", plot, "--report", report, "--no-proof", "--steps", 5)
@@ -261,6 +264,7 @@ def test_a_plot_is_an_svg(part: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert "is an .svg file" in refusal(part, capsys, "--plot", part.with_name("steps.png"))
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("2")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_to_stop_keeps_the_best_design_so_far(
@@ -298,6 +302,7 @@ def test_every_step_is_told_though_nobody_looks(
     assert re.search(r", [\d.e+-]+ s a step, at most \d+ s more$", lines[1])
 
 
+@pytest.mark.costly_cases("x = 0-sliding across x and turning about x through (")
 @pytest.mark.slow_but("fixed = true-", "x = 0-sliding across x and turning about x through (")
 @pytest.mark.parametrize(
     ("held", "says"),
@@ -328,6 +333,7 @@ force = [100, 0, 0]
     assert ("Nothing keeps the part from" in said) == bool(says)
 
 
+@pytest.mark.costly
 def test_limits_that_cannot_be_held_are_told(
     part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -167,6 +167,7 @@ def test_whole_cells_are_not_cut(
     assert (tmp_path / "a.step").read_text().count("CYLINDRICAL_SURFACE(") > 10
 
 
+@pytest.mark.costly
 @needs_freecad
 def test_plane_faces_are_told_before_the_work_where_opencascade_does_not_manage(
     tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
@@ -257,6 +258,7 @@ def test_what_only_a_domain_cannot_give(
     assert "holds no lattice" in capsys.readouterr().err
 
 
+@pytest.mark.costly
 def test_absurd_sizes_name_what_would_fit(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -58,6 +58,7 @@ def test_options_override_a_file_and_what_they_leave_idle_goes(tmp_path: Path, f
     assert (other["resolution"], other["deviation"]) == (None, 0.05)
 
 
+@pytest.mark.costly
 def test_what_was_in_force_is_written_and_read_again(tmp_path: Path, file: Path) -> None:
     again = tmp_path / "again.toml"
     spec = made(tmp_path, "--spec", file, "--strut-radius", "0.6", "--write-spec", again)
@@ -97,6 +98,7 @@ def test_mesh_and_specification_are_two_files(
     assert "cannot both be written" in capsys.readouterr().err
 
 
+@pytest.mark.costly
 def test_a_recipe_goes_by_its_name(tmp_path: Path) -> None:
     spec = made(tmp_path, "--spec", "cushion", "--cell-size", 9)
     assert (spec["cell"], spec["cell_size"]) == ("Kelvin", 9.0)

@@ -52,6 +52,7 @@ def part(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.costly
 def test_the_file_is_the_same_with_any_number_of_workers(tmp_path: Path, part: Path) -> None:
     for count in (1, 3):
         assert fill(part, tmp_path / f"{count}.stl", "--workers", count, "--quiet") == 0
@@ -76,6 +77,7 @@ def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
     assert asked == [(1, ""), (3, ""), (None, module), (3, module)]
 
 
+@pytest.mark.costly
 def test_as_many_workers_as_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     with pool.processes(1) as executor:
         assert executor is None, "this process alone"
@@ -143,6 +145,7 @@ def test_a_worker_with_another_version_is_refused(monkeypatch: pytest.MonkeyPatc
         dask._refuse_other_versions(Cluster(ModuleNotFoundError("volfrep")))
 
 
+@pytest.mark.costly
 def test_a_scheduler_that_is_not_there_is_told(
     tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -118,6 +118,7 @@ def compared(solid, spec, case):
     return made.report["cases"][0]["work_nmm"] / beams
 
 
+@pytest.mark.costly
 def test_a_skinned_part_moves_as_beams_and_shells_do():
     spec = LatticeSpec("Octet", cell_size=10, strut_radius=0.8, shell=2)
     assert compared(block(80, 40, 40), spec, loaded(80)) == pytest.approx(1, abs=0.05)
@@ -138,6 +139,7 @@ def test_whole_blocks_of_six_cells_are_pulled_as_beams_are(cell):
     assert found == pytest.approx(1, abs=0.05)
 
 
+@pytest.mark.costly
 def test_gradings_turns_and_maps_are_followed():
     solid, case = block(60, 20, 20), loaded(60, (100.0, 0, 0))
     loads = LoadCases(PA12, (case,))
@@ -171,6 +173,7 @@ def test_what_does_not_repeat_is_refused():
         homogenise_part(block(40, 20, 20), spec, loads)
 
 
+@pytest.mark.costly
 def test_heat_runs_along_a_bar_as_its_conductivity_says():
     loads = LoadCases(PA12, (loaded(60),))
     spec = LatticeSpec("Octet", strut_radius=0.8, cell_size=10, shell=0)
@@ -204,6 +207,7 @@ def test_calculix_solves_the_deck_alike(tmp_path):
     assert np.abs(found[:, 3]).max() == pytest.approx(far, rel=0.25)
 
 
+@pytest.mark.costly
 def test_the_command_and_the_call_say_the_same(tmp_path, capsys):
     solid = block(40, 20, 20)
     part, loads = tmp_path / "part.stl", tmp_path / "loads.toml"

@@ -155,6 +155,7 @@ def test_rules_make_the_librarys_cells(about: str, rules: list[str], name: str) 
     assert pairs(*found) == pairs(LIBRARY[name].nodes, LIBRARY[name].struts)
 
 
+@pytest.mark.costly
 def test_every_tessellation_and_rule_makes_a_cell_whose_copies_meet() -> None:
     for about in TESSELLATIONS:
         edges = (1.0, 3**0.5, 1.0) if about == "hexagonal prisms" else CUBE
@@ -283,6 +284,7 @@ Fundamental tesselation vectors
 """
 
 
+@pytest.mark.costly
 def test_lists_of_other_things_in_a_catalogue_are_passed_over(tmp_path: Path) -> None:
     path = tmp_path / "catalogue.lat"
     path.write_text(DESCENDED)

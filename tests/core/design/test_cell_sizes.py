@@ -105,6 +105,7 @@ def test_what_makes_no_sense_is_a_sentence(given: dict[str, Any], message: str) 
         specified(None, given, None, lambda size: BOX)
 
 
+@pytest.mark.costly
 def test_a_part_a_sheet_and_a_graph_are_filled_so() -> None:
     box = trimesh.creation.box(bounds=((0, 0, 0), (24, 12, 12)))
     even: dict[str, Any] = {"shell": 1.0, "resolution": 8}

@@ -301,6 +301,7 @@ def test_nor_is_it_allowed_inside_of_one(bad: str, place: str) -> None:
         compile_expression(place.format(bad))
 
 
+@pytest.mark.costly
 @settings(max_examples=500)
 @given(
     text=st.text(max_size=40) | st.text("s0123456789.+-*/%()<>=,^ einfmaxsort[]'_:{}", max_size=60)

@@ -31,6 +31,7 @@ def agrees(expected: float, found: float) -> bool:
     return found / FACTOR < expected < found * FACTOR
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_a_part(cell):
@@ -106,6 +107,7 @@ def test_what_a_thick_skin_leaves_is_known_of_a_box_and_a_ball():
     assert 0.0 < share_deeper(box, 11.0) < 0.002
 
 
+@pytest.mark.costly
 def test_a_lattice_under_a_thick_skin_has_the_triangles_that_are_told():
     spec = LatticeSpec("CVC", cell_size=4.0, strut_radius=0.4, shell=6.0)
     solid = samples.box((40.0, 30.0, 20.0))

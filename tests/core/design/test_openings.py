@@ -28,6 +28,7 @@ SPEC = LatticeSpec(
 )
 
 
+@pytest.mark.costly
 def test_the_open_box_is_filled_up_to_its_face():
     domain = fill(samples.box(), replace(SPEC, output="domain")).mesh
     # The skin is within 5 % of its thickness, and the open face is exactly where it is.

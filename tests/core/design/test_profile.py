@@ -82,6 +82,7 @@ def test_the_widest_exponential_does_not_overflow() -> None:
     np.testing.assert_allclose(profile([0.0, 0.5, 1.0]), [1e-6, 1.0, 1e6], rtol=1e-12)
 
 
+@pytest.mark.costly
 @given(centre=st.floats(0.02, 0.98), height=st.floats(0.1, 50))
 def test_extremes_of_a_formula_between_samples(centre: float, height: float) -> None:
     text = f"1 + {height!r} * exp(-(200 * (s - {centre!r})) ** 2)"

@@ -346,6 +346,7 @@ def test_vtk_files(name: str, options: dict[str, Any], tmp_path: Path) -> None:
     np.testing.assert_allclose(field(points), points[:, 0], rtol=1e-9)
 
 
+@pytest.mark.costly
 def test_vtk_files_of_vtks_own(tmp_path: Path) -> None:
     pytest.importorskip("meshio", reason=NO_MESHIO)
     vtk = pytest.importorskip("vtk", reason="needs VTK's own writers")
@@ -545,6 +546,7 @@ def test_a_field_without_a_span_has_no_default_curve(values: list[float], senten
         default_curve(values, 0.4, 1.2)
 
 
+@pytest.mark.costly_cases("lzma")
 @pytest.mark.parametrize("compressor", ["zlib", "lzma"])
 def test_what_a_compressed_file_is_inflated_to_is_bounded(tmp_path, monkeypatch, compressor):
     """Zeros are packed a thousand times: a small file may hold more than any memory."""

@@ -31,6 +31,7 @@ needs_both = pytest.mark.skipif(
 )
 
 
+@pytest.mark.costly
 @needs_gmsh
 def test_a_lattice_keeps_its_triangles():
     spec = LatticeSpec(cell="CVC", cell_size=10, strut_radius=1)
@@ -181,6 +182,7 @@ def test_a_lip_that_all_but_lies_on_the_surface_is_filled():
     assert filled.volumes().sum() == pytest.approx(256 + 4 * height / 3, rel=1e-9)
 
 
+@pytest.mark.costly
 def test_what_would_cross_is_not_mended(monkeypatch):
     """Gmsh refuses a surface of which one facet is folded back onto the next, too."""
     solid = samples.box((15.0, 12.0, 12.0))

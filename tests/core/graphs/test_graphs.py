@@ -221,6 +221,7 @@ def test_struts_along_the_wall_lie_on_it_and_hold_what_ends_there():
         RandomGraph("delaunay", on_wall=True)
 
 
+@pytest.mark.costly
 def test_a_given_network_is_trimmed_skinned_and_graded():
     frame = volfrep.block((2, 2, 1), cell="Kelvin", cell_size=10, strut_radius=0.6).struts
     network = make_network(frame.nodes, frame.struts)
@@ -310,6 +311,7 @@ def test_an_option_without_effect_on_a_network_is_refused(options, said, tmp_pat
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.costly
 def test_on_the_command_line(tmp_path, capsys):
     box, out = tmp_path / "box.stl", tmp_path / "out.stl"
     samples_box = samples.box((20.0, 20.0, 20.0))

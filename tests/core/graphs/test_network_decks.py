@@ -58,6 +58,7 @@ def test_a_networks_beams_have_rigid_ends_and_say_so():
     np.testing.assert_allclose(lengths, 0.6 * JOINT_LENGTH, rtol=1e-6)
 
 
+@pytest.mark.costly
 def test_decks_of_a_graph_alone_and_in_a_part(tmp_path, capsys):
     path, out = graph(tmp_path), tmp_path / "deck.inp"
     assert cli.run(["network", str(path), "-o", str(out), "--strut-radius", "0.6"]) == 0

@@ -154,6 +154,7 @@ def overlapping_graphs():
     return {"cross": cross, "short": short, "through": through}
 
 
+@pytest.mark.costly_cases("through")
 @pytest.mark.slow_but("through", "cross")
 @pytest.mark.parametrize("name", overlapping_graphs())
 def test_struts_that_overlap_are_united(name):
@@ -166,6 +167,7 @@ def test_struts_that_overlap_are_united(name):
     assert read.volume == pytest.approx(volume_of_struts(frame), rel=0.02)
 
 
+@pytest.mark.costly
 def test_what_overlaps_is_welded_to_what_does_not():
     """Two struts that cross in the middle of an endless ring of others."""
     one, two = overlapping_graphs()["cross"], random_graph(3)

@@ -162,6 +162,7 @@ def test_an_unknown_rule_is_refused():
         active_cells(grid, samples.box(), "some", Monitor())
 
 
+@pytest.mark.costly
 def test_scattered_points_inside():
     plate = samples.plate()
     points = np.random.default_rng(1).uniform((-5, -5, -5), (65, 45, 17), (20_000, 3))

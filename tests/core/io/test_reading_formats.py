@@ -379,6 +379,7 @@ def test_step_is_read_by_freecad(tmp_path):
     refused(written(tmp_path, "no.brep", b"DBRep_DrawableShape\nnonsense"), "FreeCAD")
 
 
+@pytest.mark.costly
 @needs_freecad
 def test_solids_of_step_that_meet_are_united_and_told(tmp_path):
     boxes = [samples.box((10.0, 10.0, 10.0), (8.0 * k, 0.0, 0.0)) for k in range(3)]

@@ -63,6 +63,7 @@ def test_prusa_slicer_refuses_beams_alone_rather_than_print_the_skin(small):
         prusa_info(small[1] / "beams.3mf")
 
 
+@pytest.mark.costly
 @pytest.mark.slow_cases("both.3mf")
 @needs_prusa_slicer
 @pytest.mark.parametrize("name", ["mesh.stl", "both.3mf"])

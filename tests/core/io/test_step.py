@@ -105,6 +105,7 @@ def test_what_is_not_a_solid(tmp_path: Path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.costly
 def test_a_hundred_thousand_triangles_take_seconds(tmp_path: Path):
     ball = samples.sphere(20.0, 6)
     start = time.process_time()

@@ -52,6 +52,7 @@ def some_in_the_mesh(surface: TrimmedSurface, step: int) -> TrimmedSurface:
     return surface.with_octants(where, Monitor())
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("none goes-even", "half go-graded")
 @pytest.mark.parametrize("spec", [SPEC, GRADED], ids=["even", "graded"])
 @pytest.mark.parametrize("step", [0, 2, 7], ids=["none goes", "half go", "most go"])

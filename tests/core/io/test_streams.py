@@ -85,6 +85,7 @@ def test_a_part_is_read_as_its_mesh_is(
     assert found.volume == pytest.approx(wanted.volume_mm3, rel=1e-6)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but(".ply")
 @pytest.mark.parametrize("suffix", [".stl", ".ply"])
 def test_triangle_for_triangle(suffix: str, tmp_path: Path) -> None:

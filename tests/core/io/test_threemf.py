@@ -195,6 +195,7 @@ def test_cones_and_joints_of_their_own_keep_their_radii(tmp_path: Path):
     np.testing.assert_allclose(lattice.mesh.vertices, nodes, atol=2e-5)
 
 
+@pytest.mark.costly
 def test_a_part_is_its_skin_and_its_clipped_beams(tmp_path: Path):
     solid = samples.box((40, 30, 20))
     write_3mf_beams(beam_model(solid, SPEC), tmp_path / "part.3mf")

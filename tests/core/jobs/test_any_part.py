@@ -90,6 +90,7 @@ QUICK = {(name, number) for name in MODELLED for number in (15, 30)} - {
 }  # fmt: skip
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("box-15")
 @pytest.mark.parametrize(
     ("name", "number"),

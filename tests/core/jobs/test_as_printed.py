@@ -48,6 +48,7 @@ def test_compensated_struts_come_out_as_asked_for(cell):
     assert part.report.watertight
 
 
+@pytest.mark.costly
 def test_the_mesh_has_struts_of_the_compensated_thickness():
     part = volfrep.fill(samples.box((20, 20, 20)), cell="Box", cell_size=10, strut_radius=0.5,
                         shell=1, deviation=0.003, compensate="SLS-PA12")  # fmt: skip

@@ -60,6 +60,7 @@ def test_the_streamed_file_holds_the_facets_of_the_mesh(cell, tmp_path):
     assert "write" in report.stages
 
 
+@pytest.mark.costly
 def test_specks_of_nearly_closed_windows_are_removed(tmp_path):
     """Octet of r = L / 5: its windows close, but for specks that no facet can follow."""
     report = write_block_stl(LatticeSpec("Octet", 10.0, 2.0), (2, 2, 2), tmp_path / "a.stl")
@@ -79,6 +80,7 @@ def test_the_normals_point_out_of_the_material(tmp_path):
     assert (np.einsum("ij,ij->i", across, facets["normal"]) > 0.999).all()
 
 
+@pytest.mark.costly
 def test_neighbouring_octants_share_their_vertices_to_the_last_bit(tmp_path):
     """L = 10 / 3 and an odd origin: nothing is a round number."""
     spec = LatticeSpec("Octet", 10.0 / 3.0, 0.3, resolution=8, origin=(0.1, 1e3 / 7.0, -2e3 / 3.0))

@@ -22,6 +22,7 @@ def coupons():
     return {one.kind: one for one in volfrep.coupons(SPEC, cells=2, first=7)}
 
 
+@pytest.mark.costly_cases("cube")
 @pytest.mark.parametrize("kind", ["cube", "tension", "bending", "ladder"])
 def test_a_coupon_is_one_closed_body_on_the_plate(coupons, kind):
     mesh = coupons[kind].mesh

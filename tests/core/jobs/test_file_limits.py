@@ -33,6 +33,7 @@ JOBS = [
 ]
 
 
+@pytest.mark.costly_cases("job2")
 @pytest.mark.slow_cases("job1", "job3", "job4", "job5")
 @pytest.mark.parametrize(
     ("lattice", "extension", "triangles", "megabytes"),
@@ -52,6 +53,7 @@ def test_a_file_uses_most_of_its_limits(lattice, extension, triangles, megabytes
     assert re.search(r"facets along a cell in place of \d+: they stray [\d.e-]+ mm", said)
 
 
+@pytest.mark.costly
 def test_a_file_within_its_limits_is_as_fine_as_ever(tmp_path, capsys):
     lattice = ("--cell", "BCC", "--cell-size", 10, "--strut-radius", 1, "--count", "2,2,2")
     plain, limited = tmp_path / "plain.stl", tmp_path / "limited.stl"
@@ -75,6 +77,7 @@ def test_in_python_the_report_tells_what_it_costs():
     assert part.report.watertight
 
 
+@pytest.mark.costly
 def test_struts_that_would_lose_their_shape_are_refused(tmp_path, capsys):
     out = tmp_path / "part.stl"
     lattice = ("--cell", "BCC", "--cell-size", 10, "--strut-radius", 1)

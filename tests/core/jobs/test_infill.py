@@ -69,6 +69,7 @@ def test_later_stages_use_earlier_ones(solid):
     assert part.mesh.volume == pytest.approx(skin + lattice.mesh.volume, rel=1e-5)
 
 
+@pytest.mark.costly_cases("strut_radius-octants-shell-voxels")
 @pytest.mark.slow_but("strut_radius-octants-shell-voxels", "origin-shell-tile")
 @pytest.mark.parametrize(
     ("changes", "kept"),
@@ -142,6 +143,7 @@ def test_whole_cells_are_cut_by_the_skin_only(solid):
     np.testing.assert_allclose(infill.part.mesh.bounds, solid.bounds)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("changes0")
 @pytest.mark.parametrize("changes", [{}, {"remove_dangling": True}, {"shell": 0}])
 def test_mesh_struts_beams_and_axes_lie_in_the_same_place(solid, changes):
@@ -166,6 +168,7 @@ def test_what_nothing_cuts_lies_on_its_grid(solid):
     np.testing.assert_array_equal(nodes, np.round(nodes))
 
 
+@pytest.mark.costly
 def test_progress_is_told_and_a_cancel_stops_any_stage(solid):
     seen = []
     infill = Infill(solid, SPEC, progress=lambda fraction, stage: seen.append((fraction, stage)))

@@ -67,6 +67,7 @@ def test_a_lattice_that_will_not_fit_is_refused_before_its_skin_is_made(monkeypa
     assert "walls found" not in infill.monitor.work
 
 
+@pytest.mark.costly
 def test_a_lattice_that_fits_within_its_skin_only_is_not_refused(monkeypatch):
     part, spec = samples.box((40.0, 30.0, 20.0)), LatticeSpec("CVC", 5.0, 0.5, shell=8.0)
     # A fortieth of the part is left, which is less than the cells of all of it would take.

@@ -31,6 +31,7 @@ STRUTS = np.argwhere(np.triu(np.isclose(np.linalg.norm(NODES[:, None] - NODES, a
 OWN = make_network(NODES, STRUTS)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("more1", "more6")
 @pytest.mark.parametrize(
     "more",
@@ -88,6 +89,7 @@ def test_a_network_in_a_part_meets_its_target(network: object, target: Target) -
     assert again.report.volume_mm3 == pytest.approx(result.report.volume_mm3, rel=1e-9)
 
 
+@pytest.mark.costly
 def test_targets_that_a_network_cannot_meet_are_refused() -> None:
     spec = LatticeSpec(cell_size=8.0, network=OWN, target=Target("relative_density", 0.95))
     with pytest.raises(VolfrepError, match="No strut radius meets the target"):

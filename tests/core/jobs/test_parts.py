@@ -85,6 +85,7 @@ def test_every_part_of_the_folder_has_settings():
     assert found == SETTINGS.keys() | STEP
 
 
+@pytest.mark.costly
 @pytest.mark.slow_cases(
     "axom_naca0012.stl", "conrod_slevin48.stl", "ge_bracket.stl", "trimesh_angle_block.STL"
 )

@@ -40,6 +40,7 @@ def test_a_part_is_one_body_with_skin_and_lattice(cell):
         assert report.relative_density == pytest.approx(a * 0.01 - b * 0.001, rel=0.15)
 
 
+@pytest.mark.costly
 def test_the_part_is_where_skin_or_lattice_is():
     """Monte Carlo: the volume of the points in the skin or in a strut."""
     solid = samples.box((40.0, 30.0, 20.0), (2.0, -3.0, 5.0))
@@ -55,6 +56,7 @@ def test_the_part_is_where_skin_or_lattice_is():
     assert result.report.volume_mm3 == pytest.approx(exact, abs=0.005 * exact + 3 * deviation)
 
 
+@pytest.mark.costly
 def test_thickness_zero_trims_the_lattice_at_the_outer_surface():
     solid = samples.sphere(20.0)
     result = fill(solid, LatticeSpec(cell="Octet", cell_size=8, strut_radius=0.8, shell=0))
@@ -160,6 +162,7 @@ def test_only_the_stages_that_a_change_affects_run_again(monkeypatch):
     assert stages(strut_radius=0.9, cell_size=7, shell=1.5) == {"inner_wall", "active_cells"}
 
 
+@pytest.mark.costly
 def test_progress_rises_and_a_cancel_stops():
     seen = []
     fill(samples.box(), SMALL, progress=lambda fraction, stage: seen.append((fraction, stage)))

@@ -21,6 +21,7 @@ def both(solid, spec):
     return preview(solid, spec, PartDepth(solid, spec.open_faces)), fill(solid, spec).report
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_its_figures_are_those_of_the_part(cell):
@@ -47,6 +48,7 @@ def test_its_struts_end_at_the_wall(shell):
     assert (np.abs(reach - (20.0 - shell)) < 0.05).sum() > 20
 
 
+@pytest.mark.costly
 def test_a_strut_through_a_hole_is_in_two_pieces():
     # Struts along x from 7.5 to 22.5 cross the hole at x = 15.
     spec = LatticeSpec(
@@ -79,6 +81,7 @@ def test_graded_turned_bent_and_whole(changes):
     assert shown.cells == pytest.approx(report.cells_active, rel=0.25)
 
 
+@pytest.mark.costly
 def test_under_an_open_face_there_is_no_skin():
     spec = LatticeSpec(
         cell="CVC", cell_size=8.0, strut_radius=0.8, shell=3.0,

@@ -69,6 +69,7 @@ def test_walls_and_solid_layers_are_counted():
     assert plain.filament == pytest.approx(48000 - 0.8 * inner, rel=0.01)
 
 
+@pytest.mark.costly
 def test_a_formula_says_the_density_at_every_place():
     made = slicer_infill(BOX, grading="formula", formula="20 + 30 * x / 60", **BARE)
     assert [band.mean for band in made.bands] == pytest.approx([23, 29, 35, 41, 47], abs=0.3)
@@ -95,6 +96,7 @@ def test_what_makes_no_sense_is_refused_in_a_sentence(wanted, said):
         slicer_infill(BOX, **wanted)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("part0-wanted0")
 @needs_prusa_slicer
 @pytest.mark.parametrize(
@@ -120,6 +122,7 @@ def test_prusa_slicer_lays_the_filament_that_was_told(part, wanted, tmp_path: Pa
     assert prusa_project_volume(path) == pytest.approx(made.filament, rel=0.03)
 
 
+@pytest.mark.costly
 @needs_prusa_slicer
 def test_prusa_slicer_takes_the_density_of_each_band(tmp_path: Path):
     """Were a modifier overlooked, the part would take what its own density does."""
@@ -274,6 +277,7 @@ def sized_spec(folder: Path) -> Path:
     return path
 
 
+@pytest.mark.costly
 def test_the_density_that_sizing_wants_is_that_of_its_radii(tmp_path):
     path = sized_spec(tmp_path)
     made = slicer_infill(BOX, sized=path, bands=4, **BARE)

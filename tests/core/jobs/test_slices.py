@@ -59,6 +59,7 @@ def test_layers_are_the_sections_of_the_mesh(spec, tmp_path):
     assert made.area == pytest.approx(sections, rel=3e-3)
 
 
+@pytest.mark.costly
 def test_a_picture_has_the_area_of_the_outlines(tmp_path):
     solid, spec = samples.plate(32), replace(SPEC, deviation=None)
     made = write_layers(solid, spec, tmp_path / "png", layer=0.9, cache=CACHE, pixel=0.05)
@@ -137,6 +138,7 @@ def test_a_target_is_met_in_layers(tmp_path):
     assert (made.volume - skin) / domain == pytest.approx(0.2, rel=0.02)
 
 
+@pytest.mark.costly_cases("wrong1-make them higher")
 @pytest.mark.parametrize(
     ("wrong", "why"),
     [

@@ -35,6 +35,7 @@ def bent(force=-200.0):
     return LoadCases(find_material("Ti-6Al-4V"), (case,))
 
 
+@pytest.mark.costly
 def test_what_is_solved_is_what_was_designed():
     goal = Goal(limits=Limits(displacement=0.3), thinnest=0.3, thickest=1.6)
     part = size(beam(), SPEC, bent(), goal, prove_it=False)
@@ -67,6 +68,7 @@ def test_a_design_can_be_sent_to_another_process(shell):
     assert len(steps) == len(part.sized.steps)
 
 
+@pytest.mark.costly
 def test_a_cancelled_search_keeps_the_best_and_asks_no_other_solver():
     asked = []
 

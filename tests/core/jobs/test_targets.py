@@ -40,6 +40,7 @@ def density(value: float) -> Target:
     return Target("relative_density", value)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("fillets", "whole cells")
 @pytest.mark.parametrize(
     ("solid", "settings"),
@@ -154,6 +155,7 @@ def test_the_volume_inside_whole_cells_is_that_of_the_endless_lattice() -> None:
         assert table.radius_of(table.at(radius)) == pytest.approx(radius, rel=1e-4)
 
 
+@pytest.mark.costly
 @pytest.mark.parametrize(
     "direction",
     ["1,2,0", *(pytest.param(d, marks=pytest.mark.slow) for d in ("100", "110", "111"))],
@@ -197,6 +199,7 @@ def test_a_cell_of_ones_own_is_guessed_on_coarse_grids(monkeypatch) -> None:
         stiffness_target.ratio_of_stiffness(own, Target("stiffness", 1e-4, (1.0, 0.0, 0.0)))
 
 
+@pytest.mark.costly
 def test_a_part_that_misses_its_target_is_made_again(monkeypatch) -> None:
     """With a first radius that is 3 % off, the second mesh is right."""
     true = strut_lattice.volume_by_radius
@@ -212,6 +215,7 @@ def test_a_part_that_misses_its_target_is_made_again(monkeypatch) -> None:
     assert report.work["walls found"] == 1
 
 
+@pytest.mark.costly_cases("asked0-choose one from .* of which the skin is")
 @pytest.mark.parametrize(
     ("asked", "text"),
     [

@@ -91,6 +91,7 @@ def test_a_wall_is_below_the_upper_bounds_and_a_sheet_near_that_of_the_bulk_modu
     assert found.as_dict()["wall_thickness_mm"] == 0.8
 
 
+@pytest.mark.costly
 def test_the_command_tells_what_walls_do(tmp_path: Path, capsys):
     path = tmp_path / "p.json"
     arguments = ("--cell-size", 5, "--wall-kind", "skeleton", "--relative-density", 0.3)

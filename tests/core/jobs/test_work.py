@@ -60,6 +60,7 @@ def test_the_boolean_grows_with_the_surface():
         assert large.work[figure] < 4.4 * small.work[figure]
 
 
+@pytest.mark.costly
 def test_cells_inside_do_not_enter_the_boolean():
     """On 14 cells along each axis less than half of the lattice is at the wall."""
     done = cube(14)

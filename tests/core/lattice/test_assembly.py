@@ -157,6 +157,7 @@ def test_the_volume_converges_with_resolution(name):
         assert lattice(cell, active, 1.0, resolution).volume == pytest.approx(exact, rel=allowed)
 
 
+@pytest.mark.costly
 def test_a_fillet_adds_material_at_the_joints_and_keeps_the_genus():
     cell, active = LIBRARY["BCC"], np.ones((2, 2, 2), bool)
     sharp, round_ = (quality.measure(lattice(cell, active, 0.8, 20, f)) for f in (0.0, 0.6))

@@ -126,6 +126,7 @@ def test_moved_nodes_take_their_vertices_along(laid):
     assert np.mean(on_struts < 1e-9) > 0.99
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("1.5")
 @pytest.mark.parametrize("stretch", [1.5, 2.5])
 def test_no_facets_cross_where_creases_meet_elsewhere_between_struts(stretch):
@@ -151,11 +152,13 @@ def test_the_corner_of_three_creases_is_found_from_their_struts():
     assert found(0.0, -1.0, 1.0) == 0.0
 
 
+@pytest.mark.costly_cases("skew")
 def test_struts_that_grow_into_each_other_are_refused(laid):
     with pytest.raises(VolfrepError, match=r"Near \(.*\) struts of radius 5.2 mm .* grow into"):
         laid.brought(radius=5.2)
 
 
+@pytest.mark.costly_cases("skew")
 def test_a_cancel_is_heard(laid):
     from volfrep.util.errors import Cancelled
 

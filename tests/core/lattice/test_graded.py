@@ -197,6 +197,7 @@ FILLED = {
 }
 
 
+@pytest.mark.costly
 @pytest.mark.slow_cases(
     "not convex-core",
     "not convex-cylindrical",
@@ -277,6 +278,7 @@ def test_cells_about_an_axis_leave_room_for_their_struts():
     assert result.report.bodies == 1
 
 
+@pytest.mark.costly_cases("asked2-grow into each other")
 @pytest.mark.parametrize(
     ("asked", "says"),
     [

@@ -120,6 +120,7 @@ def test_a_cell_whose_beams_miss_its_stiffness_says_so():
     assert fitted_beams(slender, None, LIBRARY["Re-entrant"], plates.SIZE)[1] == ()
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("Box-5")
 @pytest.mark.parametrize(("name", "row"), [("Box", 5), ("CVC", 6), ("Octahedron", 5)])
 def test_points_computed_again_are_those_shipped(name, row):

@@ -115,6 +115,7 @@ def test_an_octant_has_the_stiffness_of_the_whole_cell():
     assert cubic.largest == pytest.approx(full, rel=0.02)
 
 
+@pytest.mark.costly
 def test_stiffness_falls_towards_its_limit_as_voxels_become_smaller():
     cell = LIBRARY["CVC"]
     found = homogenise(cell, 0.1, along=40)
@@ -137,6 +138,7 @@ def test_voxels_hold_the_exact_density_and_forty_of_them_stay_few():
         assert 3 * len(nodes_of(voxels).place) < most
 
 
+@pytest.mark.costly
 def test_struts_that_nearly_touch_end_between_nothing_and_the_finest_grid():
     """Coarse voxels join them; a parabola would go anywhere."""
     found = homogenise(LIBRARY["Re-entrant"], 0.075, along=48)
@@ -192,6 +194,7 @@ def test_a_pulled_box_yields_where_its_columns_do():
     assert stressed.largest[0] == pytest.approx(1 / (np.pi * 0.05**2), rel=0.02)
 
 
+@pytest.mark.costly
 def test_a_slender_octet_conducts_a_third_of_its_density():
     found = homogenise(LIBRARY["Octet"], 0.05, along=60)
     part = found.finest.voxels.relative_density / 3
@@ -200,6 +203,7 @@ def test_a_slender_octet_conducts_a_third_of_its_density():
     assert ways == pytest.approx(ways[0, 0] * np.eye(3))
 
 
+@pytest.mark.costly
 def test_the_command_tells_and_writes_what_the_package_says(tmp_path: Path, capsys):
     path = tmp_path / "p.json"
     code = command.run(

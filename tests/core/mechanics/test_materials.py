@@ -86,6 +86,7 @@ def test_a_file_that_is_not_there(tmp_path: Path):
         find_material("mud")
 
 
+@pytest.mark.costly
 def test_a_material_gives_the_mass_and_a_process_its_report(tmp_path: Path, capsys):
     report = tmp_path / "r.json"
     assert block(tmp_path / "a.stl", "--material", "316L", "--report", report) == 0

@@ -2,6 +2,7 @@
 """What is drawn in pieces is the mesh itself; neighbours are those that others find."""
 
 import numpy as np
+import pytest
 import trimesh
 
 import samples
@@ -27,6 +28,7 @@ def test_pieces_are_the_same_triangles_in_their_order():
     assert all((index[:, 3] == -1).all() and len(index) <= 700 for *_, index in pieces)
 
 
+@pytest.mark.costly
 def test_a_large_part_has_a_likeness_and_a_small_one_has_none():
     ball = samples.sphere(20.0, 4)
     kinds = (np.arange(len(ball.triangles)) % 2).astype(np.uint8)

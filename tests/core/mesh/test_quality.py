@@ -138,6 +138,7 @@ def test_nothing() -> None:
         shape_statistics(empty_mesh())
 
 
+@pytest.mark.costly
 def test_more_triangles_than_a_block() -> None:
     sphere = mesh_of(trimesh.creation.icosphere(subdivisions=7))
     assert len(sphere.triangles) > 300_000

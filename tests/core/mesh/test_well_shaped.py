@@ -51,6 +51,7 @@ def test_few_needles_of_a_trimmed_part_are_left(trimmed, better):
     assert after < 0.02 * before
 
 
+@pytest.mark.costly
 @pytest.mark.slow_cases("CVC")
 def test_its_surface_stays(trimmed, better):
     was, now = measure(trimmed), measure(better)
@@ -134,6 +135,7 @@ def test_a_facet_turned_over_its_neighbour_is_put_right(height):
     assert (well_shaped_module._flipped(points, turned, Tolerance(TOLERANCE)) == turned).all()
 
 
+@pytest.mark.costly
 def test_a_flip_makes_no_edge_that_others_have():
     """Where some facets about both its ends were not looked at, an edge was made twice."""
     spec = LatticeSpec("FCC", cell_size=10, strut_radius=1, shell=0, deviation=0.05)

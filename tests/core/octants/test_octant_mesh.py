@@ -49,6 +49,7 @@ def test_an_octant_that_shares_a_mesh_has_the_border_it_would_have_alone(cell, r
         np.testing.assert_array_equal(together[key].solid_corners, alone.solid_corners)
 
 
+@pytest.mark.costly
 def test_struts_that_show_keep_octants_apart():
     """With a fillet the hidden struts of a joint show: nothing is shared."""
     cell = LIBRARY["FCC"]

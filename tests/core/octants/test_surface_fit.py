@@ -65,6 +65,7 @@ def test_even_facets_stray_as_the_border_is_told():
     assert -missed(found)[0] == pytest.approx(edge2 / (16.0 * 1.5), rel=0.4)
 
 
+@pytest.mark.costly_cases("Octet")
 def test_only_places_change_and_the_border_stays_in_its_faces(pair):
     before, after = pair
     np.testing.assert_array_equal(after.triangles, before.triangles)

@@ -98,6 +98,7 @@ def test_narrow_windows_leave_no_facets_that_cross(resolution):
     assert not crossings(block(spec, (1, 1, 1)).mesh)
 
 
+@pytest.mark.costly
 def test_facets_in_one_plane_beside_a_face_do_not_overlap():
     """Such touch as they are meshed, and cross once a turned lattice is written to a file."""
     spec = LatticeSpec("Kagome", 10.0, 1.4813)

@@ -36,6 +36,7 @@ def test_windows_narrower_than_a_deviation_count_as_either():
     assert sampled_finely_enough(find_cell("Kagome"), OctantSpec(10.0, 1.0, 0.0, 15)).samples == 1
 
 
+@pytest.mark.costly
 def test_what_is_looked_at_bit_by_bit_is_the_same(monkeypatch):
     """All at once a fit of a cell with many struts took gigabytes."""
     whole = octant_of("FCC", 15)

@@ -35,6 +35,7 @@ def solid(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.costly
 def test_a_form_is_one_class_and_one_row(
     part: volfrep.Part,
     solid: Path,

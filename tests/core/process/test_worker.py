@@ -111,6 +111,7 @@ def test_folders_may_have_spaces_and_any_letters(tmp_path, monkeypatch):
     assert [path.name for path in place.iterdir() if path.is_dir()] in ([], ["__pycache__"])
 
 
+@pytest.mark.costly
 def test_a_call_over_its_limits_is_ended_with_its_process():
     for limits, call, what in (
         (Limits(seconds=1.0), Call(calls.hold, (600.0,)), "time"),
@@ -143,6 +144,7 @@ def test_threads_that_it_may_use_are_told_to_it():
     worker.end()
 
 
+@pytest.mark.costly
 def test_a_lattice_made_elsewhere_is_the_one_made_here(engine):
     box = trimesh.creation.box((20.0, 20.0, 10.0))
     cube = TriangleMesh(box.vertices.view(np.ndarray), box.faces.view(np.ndarray).astype(np.int32))

@@ -54,6 +54,7 @@ def test_where_no_resolution_is_coarse_enough_there_must_be_fewer_cells():
         estimate_axes(10_000_000)
 
 
+@pytest.mark.costly
 def test_what_is_named_fits():
     frame = block_wireframe(SPEC, (40, 40, 40))
     with pytest.raises(VolfrepError) as error:

@@ -42,6 +42,7 @@ def depth(points):
     return np.minimum(points, SIZE - points).min(axis=1)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("uniform")
 @pytest.mark.parametrize(
     "grading",
@@ -71,6 +72,7 @@ def test_wall_and_outside_of_a_ball_are_two_spheres():
     assert area(mesh, kinds == OUTSIDE) == pytest.approx(solid.area)
 
 
+@pytest.mark.costly
 def test_behind_an_open_face_there_is_no_wall():
     top = OpenPlane(tuple(SIZE / 2 * (1, 1, 2)), (0.0, 0.0, 1.0))
     mesh, kinds = told(open_faces=(top,))

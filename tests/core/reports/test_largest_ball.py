@@ -18,6 +18,7 @@ from volfrep.reports.largest_ball import largest_ball
 WINDOWS = {"Box": 0.5, "Octet": 0.5**0.5 / (2.0 * 3.0**0.5)}
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("Box-0.16")
 @pytest.mark.parametrize("ratio", [0.06, 0.16])
 @pytest.mark.parametrize("name", WINDOWS)

@@ -49,6 +49,7 @@ def test_what_is_held_is_blue_and_what_is_loaded_orange(tmp_path):
     assert 0.3 * 400 < wide.mean() < 0.7 * 400
 
 
+@pytest.mark.costly
 def test_a_load_beside_the_part_is_refused(tmp_path):
     pytest.importorskip("pyvista", reason="pictures need the optional package pyvista")
     floor = Support(InPlane((0, 0, 0), (0, 1, 0)))

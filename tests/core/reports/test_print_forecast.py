@@ -28,6 +28,7 @@ def told(spec, process="LPBF", up=(0.0, 0.0, 1.0)):
     return print_forecast(spec, struts, (BOX.volume, shown.volume), find_process(process), up)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_cases("FCC")
 @pytest.mark.parametrize("cell", ["CVC", "FCC"])
 def test_it_tells_what_the_report_finds(cell):

@@ -31,6 +31,7 @@ def test_a_tube_lies_about_its_strut_and_faces_outwards() -> None:
     assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), outwards) > 0).all()
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("stress")
 @pytest.mark.parametrize("colour", ["radius", "stress"])
 def test_a_design_is_drawn_in_colours_with_a_legend(tmp_path: Path, colour: str) -> None:

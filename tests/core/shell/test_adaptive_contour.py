@@ -49,6 +49,7 @@ def test_the_wall_about_a_cone_strays_no_further_where_halved_cubes_lie_beside_s
     assert np.abs(field.depth.strays(vertices)).max() < refine.STRAY_SMALL
 
 
+@pytest.mark.costly
 def test_cubes_are_halved_where_the_wall_is_bent_and_not_where_it_is_flat():
     """In a box at the edges only, in a plate with holes along these as well."""
     for part, bent in ((samples.box(SIZE), 0.15), (samples.plate(128), 0.4)):

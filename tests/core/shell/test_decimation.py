@@ -33,6 +33,7 @@ def test_a_box_needs_hardly_more_than_twelve_facets():
     assert found.volume == pytest.approx(np.prod(SIZE - 4.0), rel=1e-6)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("17.0")
 @pytest.mark.parametrize("turn", [0.0, 17.0])
 def test_a_bracket_keeps_its_wall(turn):

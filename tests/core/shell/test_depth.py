@@ -81,6 +81,7 @@ def test_the_planes_of_a_ball_touch_the_smaller_ball():
     assert (np.einsum("ij,ij->i", normal, direction) > 0.999).all()
 
 
+@pytest.mark.costly
 def test_a_cancel_is_asked_for_between_steps():
     asked = []
 

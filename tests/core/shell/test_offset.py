@@ -48,6 +48,7 @@ def test_a_sphere_gives_the_smaller_sphere():
     assert wall.volume == pytest.approx(4.0 / 3.0 * np.pi * 17.0**3, rel=0.005)
 
 
+@pytest.mark.costly_cases("33.0")
 @pytest.mark.parametrize("turn", [0.0, 33.0])
 def test_a_bracket_has_sharp_and_round_edges_where_it_should(turn):
     solid = samples.bracket(turn)
@@ -109,6 +110,7 @@ def test_no_skin_is_advised_that_the_part_has_no_room_for(monkeypatch):
         inner_wall(plate, 0.02, Monitor())
 
 
+@pytest.mark.costly
 def test_cancel_is_honoured_in_time():
     asked = []
 

@@ -55,6 +55,7 @@ def _cavity(solid: TriangleMesh, skin: Skin) -> TriangleMesh:
     return found.mesh
 
 
+@pytest.mark.costly_cases("kept", "open body")
 @pytest.mark.slow_but("thin", "open body", "kept", "flush body")
 @pytest.mark.parametrize(
     ("skin", "volume"),
@@ -103,6 +104,7 @@ def test_what_is_kept_solid_round_a_hole_is_as_if_its_skin_were_so_thick() -> No
     assert kept.volume == pytest.approx(own.volume, rel=1e-6)
 
 
+@pytest.mark.costly
 def test_a_cylinder_has_its_mantle_and_its_top_apart() -> None:
     rod = _solid(trimesh.creation.cylinder(10, 30, sections=256))
     mantle, top = SmoothFace((10, 0, 0)), SmoothFace((0, 0, 15))
@@ -110,6 +112,7 @@ def test_a_cylinder_has_its_mantle_and_its_top_apart() -> None:
     assert made.volume == pytest.approx(math.pi * 36 * 27, rel=2e-3)
 
 
+@pytest.mark.costly
 def test_where_a_thick_skin_ends_on_a_flat_side_it_is_rolled_off() -> None:
     """Half of a side: no point nearer to it than its skin is in the cavity, and none else is not.
 

@@ -33,6 +33,7 @@ def made(**given):
     return solid, spec, find_domain(solid, spec.skin, Monitor())
 
 
+@pytest.mark.costly
 def test_the_wall_lies_as_deep_as_the_field_says():
     solid, spec, domain = made(shell=1.0, skin_field=rising(1.0, 4.0))
     quality = measure(domain.mesh)
@@ -70,6 +71,7 @@ def test_nowhere_is_it_thinner_than_the_shell():
     assert closest_points(solid, domain.mesh.vertices)[1].min() > 1.95
 
 
+@pytest.mark.costly
 def test_open_faces_and_faces_with_their_own_skin_stay_so():
     opened = (OpenPlane((0, 0, 20), (0, 0, 1)),)
     _, _, domain = made(shell=1.0, skin_field=rising(1.0, 3.0), open_faces=opened)

@@ -40,6 +40,7 @@ def model_of(given, shell):
     return problem, np.clip(np.full(len(problem.low), 0.8), problem.low, problem.high)
 
 
+@pytest.mark.costly_cases("skinned")
 @pytest.mark.parametrize("shell", [0.0, 1.0], ids=["bare", "skinned"])
 def test_a_heavy_body_swings_as_on_a_spring(shell):
     """Of the part's stiffness across at its end, sqrt(k / m) / 2 pi; the softer way is lowest."""
@@ -66,6 +67,7 @@ def test_an_acceleration_pulls_at_it_by_its_weight():
     assert len(still.cases[0].loads) == 1
 
 
+@pytest.mark.costly
 @pytest.mark.skipif(find_calculix() is None, reason="CalculiX is not installed")
 @pytest.mark.parametrize("shell", [0.0, 1.0], ids=["bare", "skinned"])
 def test_calculix_finds_the_same_frequency(shell):

@@ -56,6 +56,7 @@ def test_a_design_with_a_skin_holds_its_limits_in_calculix():
     assert uses["frequency"] / proof["lowest_frequency"] < 1.01
 
 
+@pytest.mark.costly
 @needs_calculix
 def test_a_skin_of_wedges_moves_as_shells_do():
     made = sized(Limits(stress=400.0), shell=0.8)

@@ -116,6 +116,7 @@ def test_a_narrow_ledge_leaves_few_needles():
     assert even.volume == pytest.approx(whole.volume, rel=1e-3)
 
 
+@pytest.mark.costly
 def test_no_triangle_of_an_even_surface_lies_on_its_face():
     """A plate with two round holes: long needles fan out from the holes and are made even."""
     plate = CrossSection.square((40.0, 40.0))
@@ -271,6 +272,7 @@ def test_what_is_held_is_held_on_the_outside():
     assert skin.inside.min(axis=0) == pytest.approx([-18.0, -13.0, -8.0])
 
 
+@pytest.mark.costly
 def test_wedges_in_corners_keep_the_skins_thickness():
     """Triangles smaller than the skin is thick: the inner side slides along itself."""
     skin = skin_model(box(30, 20, 20), 2.0, 1.8, STEEL)

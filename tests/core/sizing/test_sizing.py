@@ -56,6 +56,7 @@ def cantilever(cell="CVC", count=(6, 2, 2), radius=0.6, cases=1, size=10.0):
     return problem, np.full(len(nodes), radius)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_struts_and_joints_have_the_volume_of_their_mesh(cell):
@@ -162,6 +163,7 @@ def test_derivatives_are_those_of_differences():
     )
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("Box")
 @pytest.mark.parametrize("cell", PAPERS)
 def test_a_sized_cantilever_is_much_stiffer_than_an_even_one_of_its_volume(cell):
@@ -174,6 +176,7 @@ def test_a_sized_cantilever_is_much_stiffer_than_an_even_one_of_its_volume(cell)
     assert even.compliance[0] > 1.4 * made.analysis.compliance[0]
 
 
+@pytest.mark.costly
 def test_the_lightest_design_holds_its_limits_and_saves_mass():
     problem, radii = cantilever(cases=2)
     even, _ = analyse(problem, radii, Limits(stress=1.0, displacement=1.0))
@@ -244,6 +247,7 @@ def test_limits_that_cannot_be_held_are_told():
         Limits(stress=-1.0)
 
 
+@pytest.mark.costly
 def test_a_search_that_is_stopped_keeps_the_best_so_far():
     problem, radii = cantilever()
     volume = problem.radii.volume(radii)

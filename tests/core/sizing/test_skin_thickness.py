@@ -69,6 +69,7 @@ def test_a_skin_that_is_varied_is_the_skin_that_is_not():
     assert varied.skin_stress == pytest.approx(told, rel=1e-5)
 
 
+@pytest.mark.costly
 def test_its_derivatives_are_those_of_differences():
     _, problem, first = tube(
         (20.0, 10.0, 10.0), lambda region: Force(region, (0, 50.0, -500.0)), bounds=(0.5, 4.0),
@@ -147,6 +148,7 @@ def test_flanges_of_a_cantilever_follow_the_moment():
     assert sized.analysis.volume < 0.9 * even.volume
 
 
+@pytest.mark.costly
 def test_a_closed_tube_buckles_as_eulers_column():
     """Held at one end: pi2 E I / (4 length2), less what the load lets its end plate give way."""
     length, width, height, wall = 160.0, 20.0, 14.0, 1.0
@@ -161,6 +163,7 @@ def test_a_closed_tube_buckles_as_eulers_column():
     assert found.factors[0] * 1000.0 == pytest.approx(euler, rel=0.03)
 
 
+@pytest.mark.costly
 def test_where_a_skin_meets_itself_the_part_is_solid_and_that_is_told():
     """A wedge: solid as far as it is thinner than two skins, which is one place of known mass."""
     length, width, thick, shell = 60.0, 12.0, 12.0, 2.0

@@ -29,6 +29,7 @@ def lists_design(limits):
     return problem, free.analysis, found, holds
 
 
+@pytest.mark.costly_cases("displacement")
 @pytest.mark.parametrize(
     ("limits", "most"),
     [(Limits(stress=700.0), 1.25), (Limits(displacement=1.0), 1.1)],
@@ -48,6 +49,7 @@ def test_radii_of_a_list_hold_the_limits_and_cost_little(limits, most):
         assert even.most_used > 1.0 or even.volume >= found.volume
 
 
+@pytest.mark.costly
 def test_the_stiffest_radii_of_a_list_have_no_more_than_their_mass():
     problem, start = cantilever(count=(4, 2, 2))
     volume = problem.radii.volume(start)
@@ -65,6 +67,7 @@ def test_a_list_without_a_radius_for_a_node_is_refused():
         of_list(problem, Limits(), analyse(problem, start, Limits())[0], np.array([9.0]))
 
 
+@pytest.mark.costly
 def test_images_have_one_radius_and_the_worst_side_governs():
     """A load on one side: with symmetry both sides are as thick as that one has to be."""
     problem, start = cantilever(count=(4, 2, 2))
@@ -148,6 +151,7 @@ def test_a_part_is_its_own_image_and_has_radii_of_the_list():
     assert "mass of struts and skin" in sizing_plot(report)
 
 
+@pytest.mark.costly_cases("given1-have no image in the planes of symmetry")
 @pytest.mark.parametrize(
     ("given", "said"),
     [

@@ -49,6 +49,7 @@ def test_a_solid_is_pressed_by_what_it_may_not_grow(both_ends):
     assert case["stress_mpa"]["outside"] == pytest.approx(expected, rel=1e-3, abs=1e-3)
 
 
+@pytest.mark.costly_cases("free")
 @pytest.mark.parametrize("both_ends", [True, False], ids=["held", "free"])
 def test_a_skin_is_pressed_by_what_it_may_not_grow(both_ends):
     loads = load_cases_of(entries(both_ends=both_ends))
@@ -67,6 +68,7 @@ def test_a_skin_is_pressed_by_what_it_may_not_grow(both_ends):
         assert felt.max() < 1e-3 * expected
 
 
+@pytest.mark.costly
 @pytest.mark.skipif(find_calculix() is None, reason="CalculiX is not installed")
 def test_struts_are_sized_for_it_and_calculix_agrees():
     given = entries(both_ends=True)

@@ -61,6 +61,7 @@ def made(part):
     return size(solid, spec, LoadCases(TITANIUM, (case,)), goal, most_steps=1)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("neck")
 @needs_calculix
 @pytest.mark.parametrize("shape", [arm, neck])

@@ -102,6 +102,7 @@ def test_a_process_that_dies_gets_its_run_again_and_then_is_at_fault(
     assert "ended by signal 9, 2 times" in said
 
 
+@pytest.mark.costly
 def test_an_interpreter_is_asked_whether_it_runs_the_engine(tmp_path: Path) -> None:
     assert child.runs_engine(Program((sys.executable,), tuple(filter(None, sys.path))))
     assert not child.runs_engine(Program((str(tmp_path / "python"),), ()))

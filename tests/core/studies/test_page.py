@@ -58,6 +58,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return volfrep.sweep(STUDY, tmp_path_factory.mktemp("runs")).page
 
 
+@pytest.mark.costly
 def test_a_page_is_made_of_itself(made: Path) -> None:
     page = Page(made.read_text())
     assert page.opened == []

@@ -71,6 +71,7 @@ def test_a_study_makes_a_record_a_design_a_table_and_a_page(tmp_path: Path) -> N
     assert not list(tmp_path.rglob("*.part"))
 
 
+@pytest.mark.costly
 def test_what_is_done_is_not_done_again(done: Path) -> None:
     before = timeless(done)
     times = {path: path.stat().st_mtime_ns for path in (done / "records").iterdir()}
@@ -162,6 +163,7 @@ def test_the_command_of_a_chosen_design_makes_exactly_that_part(
     assert triangles_of(files[0]) == triangles_of(files[1])
 
 
+@pytest.mark.costly
 def test_a_run_that_fails_keeps_its_sentence_and_ends_nothing(tmp_path: Path) -> None:
     study = Study(
         parts=(BOX,),
@@ -181,6 +183,7 @@ def test_behind_every_action_is_a_function() -> None:
     assert list(evaluator.FIGURES) == list(ACTIONS)
 
 
+@pytest.mark.costly
 def test_a_defect_of_the_engine_is_told_and_ends_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -219,6 +222,7 @@ def test_any_executor_does_the_runs(whole: Swept, tmp_path: Path) -> None:
         volfrep.sweep(QUICK, tmp_path / "shut", executor=pool)
 
 
+@pytest.mark.costly
 def test_a_cancelled_study_goes_on_where_it_stopped(tmp_path: Path) -> None:
     told = []
 
@@ -234,6 +238,7 @@ def test_a_cancelled_study_goes_on_where_it_stopped(tmp_path: Path) -> None:
     assert volfrep.sweep(QUICK, tmp_path, workers=1).runs == 6 - done
 
 
+@pytest.mark.costly
 def test_an_optimiser_gets_figures_by_name_and_sentences_for_what_makes_no_sense(
     tmp_path: Path,
 ) -> None:
@@ -257,6 +262,7 @@ def test_a_grid_may_take_several_parts(tmp_path: Path) -> None:
         volfrep.evaluate(study, [{}], tmp_path)
 
 
+@pytest.mark.costly
 def test_an_objective_that_is_no_column_is_told(tmp_path: Path) -> None:
     import dataclasses
 
@@ -265,6 +271,7 @@ def test_an_objective_that_is_no_column_is_told(tmp_path: Path) -> None:
         volfrep.sweep(study, tmp_path)
 
 
+@pytest.mark.costly
 def test_the_command_does_a_study(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     trimesh.creation.box((24, 16, 16)).export(tmp_path / "box.stl")
     (tmp_path / "study.toml").write_text(

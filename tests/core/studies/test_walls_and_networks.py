@@ -58,6 +58,7 @@ def test_networks_have_forecasts_and_no_properties(cube: str, tmp_path: Path) ->
     assert "repeats nowhere" in row["error"]
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("given0")
 @pytest.mark.parametrize("given", [{"cell": "Gyroid"}, {"network": RandomGraph(points=10)}])
 def test_of_a_domain_is_expected_what_walls_and_networks_fill(given: dict[str, Any]) -> None:

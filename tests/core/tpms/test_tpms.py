@@ -148,6 +148,7 @@ def test_what_is_proved_by_kinds_of_octants_holds_on_the_triangles(name) -> None
     assert agree_on_faces(layout)
 
 
+@pytest.mark.costly
 def test_a_sheet_is_as_thick_as_wanted_from_side_to_side() -> None:
     found = octants("Gyroid", thickness=0.8, facets=30)
     mesh = lay(laid_block(found, 2), Monitor())
@@ -183,6 +184,7 @@ def test_a_skeleton_and_its_complement_fill_the_cell() -> None:
     assert one.relative_density > two.relative_density
 
 
+@pytest.mark.costly
 def test_a_streamed_block_is_the_same_as_one_held_whole(tmp_path) -> None:
     spec = LatticeSpec("Gyroid", SIZE, resolution=16, wall=TpmsSheet("sheet", 1.2))
     streamed = write_block_stl(spec, (2, 1, 2), tmp_path / "block.stl")
@@ -196,6 +198,7 @@ def test_a_streamed_block_is_the_same_as_one_held_whole(tmp_path) -> None:
 _stages = StageCache()
 
 
+@pytest.mark.costly
 @pytest.mark.slow_cases("no skin", "skeleton")
 @pytest.mark.parametrize(
     "settings",
@@ -271,6 +274,7 @@ def test_walls_come_out_with_their_target(target, wall) -> None:
     assert report.target["reached"] == reached
 
 
+@pytest.mark.costly
 def test_a_formula_of_ones_own_is_the_same_as_the_librarys() -> None:
     own = PeriodicSurface("Formula", "cos(x) + cos(y) + cos(z)")
     reports = [
@@ -355,6 +359,7 @@ def test_the_command_refuses_what_has_no_effect(options, said, tmp_path, capsys)
     assert not out.exists()
 
 
+@pytest.mark.costly
 def test_the_command_fills_a_part_with_walls(tmp_path, capsys) -> None:
     part, out = tmp_path / "box.stl", tmp_path / "out.stl"
     trimesh.creation.box((24, 20, 16)).export(part)

@@ -193,6 +193,7 @@ def tilted_box():
     return TriangleMesh(np.asarray(box.vertices), box.faces.astype(np.int32))
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but("round-CVC-True")
 @pytest.mark.parametrize("cavity", [True, False])
 @pytest.mark.parametrize("name", ["CVC", "Box"])
@@ -277,6 +278,7 @@ def test_a_worker_that_is_gone_costs_time_and_nothing_else(small_groups):
     assert Gone.taken > 2
 
 
+@pytest.mark.costly
 def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
     counts = joined_of(monkeypatch)
     real, spoilt = boolean_trim.cut_group, []
@@ -296,6 +298,7 @@ def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
     assert len(counts) == 2
 
 
+@pytest.mark.costly
 @pytest.mark.slow_cases("False")
 @pytest.mark.parametrize("cavity", [True, False])
 def test_what_is_not_certain_the_library_decides(cavity, small_groups, monkeypatch):
@@ -331,6 +334,7 @@ def test_slivers_go_in_the_groups_but_not_where_these_meet(small_groups):
     assert quality.inspect(clean).quality.overused_edges == 0
 
 
+@pytest.mark.costly
 def test_slivers_that_go_leave_no_vertices_behind():
     exact, clean = (trimmed(samples.sphere(10.0), precision=p).surface.mesh for p in (0.0, 0.02))
     assert len(clean.triangles) < len(exact.triangles)

@@ -63,6 +63,7 @@ def test_it_is_what_the_whole_mesh_would_have_become(
     np.testing.assert_allclose(one.bounds, two.bounds)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_cases("drains")
 @pytest.mark.parametrize("name", ["drains", "an open face"])
 def test_its_figures_are_those_of_its_triangles(name: str) -> None:

@@ -32,6 +32,7 @@ def is_material(mesh, *points):
     return inside_points(mesh, np.array(points, float), Monitor()).tolist()
 
 
+@pytest.mark.costly
 def test_a_hole_opens_the_void_and_takes_its_cylinder():
     solid = samples.box()
     closed, opened = fill(solid, SPEC).report, drained(solid, ((20, 15, 20),))
@@ -122,6 +123,7 @@ def dumbbell():
     )
 
 
+@pytest.mark.costly
 def test_every_void_is_drained():
     solid = dumbbell()
     assert fill(solid, SPEC).report.voids == 2
@@ -130,6 +132,7 @@ def test_every_void_is_drained():
     assert sorted(place[0] > 25.0 for place in report.drain_holes) == [False, True]
 
 
+@pytest.mark.costly
 def test_a_void_that_stays_closed_is_said():
     solid = dumbbell()
     report = drained(solid, ((10.0, 10.0, 20.0),)).report

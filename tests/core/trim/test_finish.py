@@ -130,6 +130,7 @@ def test_flat_shells_that_go_leave_the_count_of_bodies_as_it_is():
     assert (cleared.quality.bodies, cleared.quality.voids) == (1, 0)
 
 
+@pytest.mark.costly
 @pytest.mark.slow_cases("whole-0.0")
 @pytest.mark.parametrize(
     ("boundary", "shell"),
@@ -173,6 +174,7 @@ def test_pieces_that_are_left_out_are_told_with_their_share():
     assert float(told.split("left out, ")[1].split(" %")[0]) == pytest.approx(100 * share, abs=2)
 
 
+@pytest.mark.costly
 def test_a_lattice_of_many_bodies_is_told():
     solid = samples.box((31.0, 26.0, 24.0))
     cut = fill(solid, LatticeSpec(APART, 10.0, 0.8, shell=2, output="lattice")).report
@@ -215,6 +217,7 @@ def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
     assert tidy(TrimmedSurface(box), 1e-4, Monitor()).mesh is box
 
 
+@pytest.mark.costly
 def test_slivers_away_from_all_octants_take_none_of_these_along(monkeypatch):
     """Whatever edges they have: no octant has any there."""
 
@@ -249,6 +252,7 @@ def test_new_triangles_are_those_that_were_not_there():
     assert places(mesh, ~new) <= old
 
 
+@pytest.mark.costly
 def test_vertices_at_the_rim_of_octants_beside_the_mesh_take_these_along(monkeypatch):
     """Drawn apart alone they would leave the octants, which have them where they were."""
     moved = []
@@ -267,6 +271,7 @@ def test_vertices_at_the_rim_of_octants_beside_the_mesh_take_these_along(monkeyp
     assert result.report.bodies == 1
 
 
+@pytest.mark.costly
 def test_octants_about_facets_that_cross_go_along_and_the_others_stay_beside(monkeypatch):
     at_rim = []
 

@@ -67,6 +67,7 @@ def loose():
     return Infill(BOX, LOOSE)
 
 
+@pytest.mark.costly
 def test_no_form_of_a_lattice_holds_what_its_mesh_leaves_out(loose):
     report = loose.lattice.report
     assert (report.bodies, report.pieces_removed) == (1, 3)

@@ -38,6 +38,7 @@ def laid_of(infill):
     return infill.filling._laid[True]
 
 
+@pytest.mark.costly
 def test_octants_inside_stay_beside_the_mesh():
     surface = graded().part.surface
     assert surface.octants is not None
@@ -53,6 +54,7 @@ def test_what_is_found_of_moved_octants_is_what_their_triangles_show():
     assert found.bodies == 1
 
 
+@pytest.mark.costly
 @pytest.mark.slow_but(".stl")
 @pytest.mark.parametrize("suffix", [".stl", ".ply", ".obj", ".3mf"])
 def test_a_file_holds_what_the_mesh_does(suffix, tmp_path):

@@ -108,6 +108,7 @@ def test_whole_cells_have_the_genus_of_their_graph(cell, activation):
     assert report.genus == result.wireframe.genus
 
 
+@pytest.mark.costly
 def test_whole_cells_are_told_apart_by_where_they_lie():
     solid = samples.sphere(24.0)
     active = {}
@@ -207,6 +208,7 @@ def test_a_skin_holds_every_strut_that_it_cuts():
     assert report.struts_dangling_removed == 0
 
 
+@pytest.mark.costly
 def test_with_a_skin_whole_cells_are_joined_to_it():
     """What sticks out is cut at the outside: the part is that of the trimmed lattice."""
     solid = samples.sphere(16.0)
@@ -216,6 +218,7 @@ def test_with_a_skin_whole_cells_are_joined_to_it():
     assert (whole.bodies, whole.genus) == (trimmed.bodies, trimmed.genus)
 
 
+@pytest.mark.costly
 def test_a_lattice_that_nothing_holds_is_refused():
     spec = replace(WHOLE, boundary="trim", shell=2, activation="inside")
     with pytest.raises(VolfrepError, match="No strut reaches the skin"):

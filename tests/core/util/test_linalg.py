@@ -61,6 +61,7 @@ def test_solutions_determinants_and_turns_are_numpys(symmetric):
     np.testing.assert_allclose(linalg.turns(maps), left @ rest, atol=1e-12)
 
 
+@pytest.mark.costly
 def test_no_coordinate_comes_from_sums_that_threads_order():
     """The library behind `@` and `numpy.linalg` adds in another order on another number."""
     found = []
@@ -80,6 +81,7 @@ def test_no_coordinate_comes_from_sums_that_threads_order():
     assert not found
 
 
+@pytest.mark.costly
 def test_a_part_has_the_same_bytes_with_one_thread_and_with_two():
     script = (
         "import sys; sys.path.insert(0, sys.argv[1])\n"

@@ -387,6 +387,8 @@ def homogenise(
     spec: LatticeSpec | None = None,
     *,
     element: float | None = None,
+    frequencies: int = 0,
+    load_factors: int = 0,
     unit: str | None = None,
     progress: ProgressCallback | bool | None = None,
     cache: StageCache | None = None,
@@ -399,6 +401,8 @@ def homogenise(
         loads: the file of the load cases (docs/loads.md), or a dict with the file's entries.
         spec: what it is filled with.
         element: edge of an element, mm; None for a cell, or less where there are few.
+        frequencies: how many of the lowest natural ones, with the first case's supports.
+        load_factors: how many of the lowest at which the part buckles as a whole, in each case.
         unit: as of `fill`.
         progress: as of `fill`.
         cache: as of `fill`.
@@ -435,7 +439,10 @@ def homogenise(
     with shown(progress) as told:
         solid, wanted = _asked(part, unit, told, spec, given, None)
         cases = _loads(loads, solid)
-        return homogenise_part(solid, wanted, cases, element=element, progress=told, cache=cache)
+        return homogenise_part(
+            solid, wanted, cases, element=element, frequencies=frequencies,
+            load_factors=load_factors, progress=told, cache=cache,
+        )  # fmt: skip
 
 
 def _loads(

@@ -34,7 +34,10 @@ def _homogenise(options: argparse.Namespace) -> None:
     solid = read_part(options.part, options.unit, found.spec.cell_size)
     loads = read_load_cases(options.loads, solid)
     with drawn(options.quiet) as progress:
-        made = homogenise_part(solid, found.spec, loads, element=options.element, progress=progress)
+        made = homogenise_part(
+            solid, found.spec, loads, element=options.element, frequencies=options.frequencies,
+            load_factors=options.load_factors, progress=progress,
+        )  # fmt: skip
     if options.output is not None:
         made.save(options.output)
     if options.report is not None:

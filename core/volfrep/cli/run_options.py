@@ -408,6 +408,16 @@ RUN_OPTIONS = (
         "MM", read=float,
     ),
     RunOption(
+        "frequencies", ("homogenise",),
+        "so many of the lowest natural frequencies, with the first case's supports", "N",
+        read=int, default=0,
+    ),
+    RunOption(
+        "load-factors", ("homogenise",),
+        "so many of the lowest factors of each case's loads at which the part buckles as a whole",
+        "N", read=int, default=0,
+    ),
+    RunOption(
         "radii", ("size",), "the radii at the nodes, as --radius-field reads it",
         "FILE.csv", writes="radii",
     ),

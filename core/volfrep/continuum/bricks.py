@@ -103,9 +103,12 @@ class Bricks:
 
 
 def add_bars(
-    matrices: Floats, bricks: Bricks, elements: Ints, places: Floats, ways: Floats, sizes: Floats
-) -> None:
-    """Add what lies along lines through elements and is stiff along them only, in place.
+    matrices: Floats, bricks: Bricks, elements: Ints, places: Floats, ways: Floats, sizes: Floats,
+    bent: Floats,
+) -> None:  # fmt: skip
+    """Add what lies along lines through elements and is stiff along them, less across, in place.
+
+    Across them it takes shear: joints turn as the solid does, and struts between them are bent.
 
     Args:
         matrices: (e, 24, 24) float32.
@@ -114,7 +117,11 @@ def add_bars(
         places: (q, 3) the pieces' middles in the unit cube.
         ways: (q, 3) unit vectors along them.
         sizes: (q,) N mm: E times the section times the piece's length.
+        bent: (q,) N mm: 12 E I over the square of the strut's length, times the piece's length.
     """
+    full = np.zeros((3, 3, 6))
+    for row, (i, j) in enumerate(((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))):
+        full[i, j, row] = full[j, i, row] = 1.0 if i == j else 0.5
     stretch = np.stack(
         [
             ways[:, 0] ** 2, ways[:, 1] ** 2, ways[:, 2] ** 2,
@@ -123,6 +130,10 @@ def add_bars(
         axis=1,
     )  # fmt: skip
     for rows in np.array_split(np.arange(len(elements)), len(elements) // AT_ONCE + 1):
-        strain = np.einsum("qi,qia->qa", stretch[rows], bricks.strains(places[rows]))
-        own = sizes[rows, None, None] * strain[:, :, None] * strain[:, None]
+        every = bricks.strains(places[rows])
+        strain = np.einsum("qi,qia->qa", stretch[rows], every)
+        ends = np.einsum("ijv,qj,qva->qia", full, ways[rows], every, optimize=True)
+        along = sizes[rows] - bent[rows]
+        own = along[:, None, None] * strain[:, :, None] * strain[:, None]
+        own += bent[rows, None, None] * np.einsum("qia,qib->qab", ends, ends, optimize=True)
         np.add.at(matrices, elements[rows], own.astype(np.float32))

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..design.cells import UnitCell
 from ..mechanics.catalogue import joint_law
-from ..mechanics.frame import PeriodicFrame, frame_tensor
+from ..mechanics.frame import PeriodicFrame, frame_pulls, frame_tensor
 from ..mechanics.joint_fit import periodic_frame
 from ..util.types import Floats
 
@@ -30,6 +30,8 @@ class CellLaw:
         tensors: (n, 6, 6) stiffness in the cell's axes, Voigt.
         strength: (n, 2) macroscopic stress along an edge and shear at which the solid yields.
         conductivity: (n,) the mean over the axes.
+        pressed: (n, m, 6) of each strut what presses it under a unit strain, Voigt in the cell's
+            axes, over what buckles it between pinned ends; None of walls.
     """
 
     thickness: Floats
@@ -37,6 +39,7 @@ class CellLaw:
     tensors: Floats
     strength: Floats
     conductivity: Floats
+    pressed: Floats | None = None
 
     def tensors_at(self, thickness: Floats) -> Floats:
         """(k, 6, 6) between the samples by the matrices' logarithms; (1, 6, 6) of one sample."""
@@ -76,6 +79,18 @@ def in_cell(stress: Floats, frames: Floats) -> Floats:
     full = stress[:, [[0, 5, 4], [5, 1, 3], [4, 3, 2]]]
     back = np.einsum("kia,kij,kjb->kab", frames, full, frames)
     return np.stack([back[:, i, j] for i, j in _VOIGT], axis=1)
+
+
+def pressed_struts(cell: UnitCell, cell_size: float, radius: float) -> Floats:
+    """(m, 6) what presses struts under unit strains, over what buckles them between pinned ends.
+
+    Joints hold struts more than pins do, and move aside: alone, struts bear as much or more.
+    """
+    frame, ratio = periodic_frame(cell), radius / cell_size
+    pulls = frame_pulls(frame, ratio, joint_law(cell, cell_size)(radius))
+    square = ((frame.end - frame.start) ** 2).sum(axis=1)
+    result: Floats = -pulls * (square / (np.pi**3 * ratio**4 / 4.0))[:, None]
+    return result
 
 
 def split(jacobians: Floats) -> tuple[Floats, Floats]:

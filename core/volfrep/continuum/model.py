@@ -26,7 +26,7 @@ from ..util.types import Bools, Floats, Ints
 from ..voxels.bricks import POINTS
 from ..voxels.loaded import Loaded, VoxelCase, solve_laid
 from ..voxels.multigrid import Elements, Fine, Multigrid
-from .bricks import Bricks, Shares
+from .bricks import AT_ONCE, Bricks, Shares
 from .cell_law import in_cell
 
 #: Elements with less lattice, or less skin, are not told of.
@@ -49,6 +49,7 @@ class ContinuumModel:
         density: (e,) or (1,) of the lattice, relative.
         strength: (e, 2) or (1, 2) of the lattice along its edges and in shear, over the solid's.
         conductivity: (e,) or (1,) of the lattice over the solid's.
+        pressed: (e, m, 6) or (1, m, 6) of the cell law; None where it has none.
         material: the solid.
         loaded: takes loads to the nodes.
         across: how many cells lie across the part where it is thickest.
@@ -65,6 +66,7 @@ class ContinuumModel:
     density: Floats
     strength: Floats
     conductivity: Floats
+    pressed: Floats | None
     material: SolidMaterial
     loaded: Loaded
     across: float
@@ -85,6 +87,8 @@ class ContinuumState:
         work: N mm, twice the energy.
         use: (e,) share of the solid's yield stress in the lattice, at most; nan without one.
         skin: (e,) MPa, von Mises in skin and kept solids, nominal; 0 where there is none.
+        struts: (e,) what presses the most pressed strut over what buckles it between pins; None
+            where the cells have no struts, or a map stretches them.
         steps: of the conjugate gradients.
     """
 
@@ -93,6 +97,7 @@ class ContinuumState:
     work: float
     use: Floats
     skin: Floats
+    struts: Floats | None
     steps: int
 
 
@@ -109,20 +114,27 @@ def solve_continuum(
         Cancelled: when the monitor says so.
     """
     monitor = monitor or Monitor()
-    every = np.ones(len(model.matrices), bool)
+
+    def solver_of(free: Bools) -> Multigrid:
+        return multigrid_of(model, free, monitor)
+
+    def state_of(case: VoxelCase, moved: Floats, forces: Floats, steps: int) -> ContinuumState:
+        work = float(np.vdot(moved, forces))
+        struts = _pressed(model, moved)
+        return ContinuumState(case, moved, work, *_stress(model, moved), struts, steps)
+
+    return solve_laid([model.loaded.case(case) for case in cases], solver_of, state_of, tolerance)
+
+
+def multigrid_of(model: ContinuumModel, free: Bools, monitor: Monitor | None = None) -> Multigrid:
+    """The part's equations where (n, 3) are free, and their solver."""
 
     def own_matrices(rows: Ints) -> Floats:
         return model.matrices[rows].astype(float)
 
-    def solver_of(free: Bools) -> Multigrid:
-        fine = Fine(model.elements, every, np.zeros((24, 24)), own_matrices, free)
-        return Multigrid(fine, model.size, monitor)
-
-    def state_of(case: VoxelCase, moved: Floats, forces: Floats, steps: int) -> ContinuumState:
-        work = float(np.vdot(moved, forces))
-        return ContinuumState(case, moved, work, *_stress(model, moved), steps)
-
-    return solve_laid([model.loaded.case(case) for case in cases], solver_of, state_of, tolerance)
+    every = np.ones(len(model.matrices), bool)
+    fine = Fine(model.elements, every, np.zeros((24, 24)), own_matrices, free)
+    return Multigrid(fine, model.size, monitor)
 
 
 def _stress(model: ContinuumModel, moved: Floats) -> tuple[Floats, Floats]:
@@ -146,6 +158,22 @@ def _stress(model: ContinuumModel, moved: Floats) -> tuple[Floats, Floats]:
     return use, skin
 
 
+def _pressed(model: ContinuumModel, moved: Floats) -> Floats | None:
+    """(e,) of the most pressed strut of the lattice; None where that is not known."""
+    if model.pressed is None:
+        return None
+    own = moved[model.elements.nodes].reshape(-1, 24)
+    strain = own @ model.bricks.strains(np.full((1, 3), 0.5))[0].T
+    half = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
+    local = in_cell(strain * half, np.broadcast_to(model.frames, (len(own), 3, 3))) / half
+    result = np.zeros(len(own))
+    some = np.flatnonzero(model.shares.lattice.mean(axis=1) > TOLD)
+    for rows in np.array_split(some, len(some) // AT_ONCE + 1):
+        table = model.pressed if len(model.pressed) == 1 else model.pressed[rows]
+        result[rows] = (table @ local[rows][:, :, None]).max(axis=(1, 2), initial=0.0)
+    return result
+
+
 def figures_of(model: ContinuumModel, state: ContinuumState) -> dict[str, Any]:
     """What a load case came to, as plain JSON values."""
     moved, case = state.displacements, state.case
@@ -163,10 +191,13 @@ def figures_of(model: ContinuumModel, state: ContinuumState) -> dict[str, Any]:
     for name, values, share in (
         ("lattice_use", state.use, model.shares.lattice),
         ("skin_mpa", state.skin, model.shares.solid),
+        ("strut_buckling", state.struts, model.shares.lattice),
     ):  # fmt: skip
+        result[name] = result[f"{name}_at"] = None
+        if values is None:
+            continue
         weights = share.mean(axis=1)
         there = (weights > 0.0) & np.isfinite(values)
-        result[name] = result[f"{name}_at"] = None
         if there.any() and values[there].any():
             rows = np.flatnonzero(there)
             row = rows[row_of_most(values[rows], weights[rows])]

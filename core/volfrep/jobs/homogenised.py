@@ -18,8 +18,10 @@ import numpy as np
 
 from ..continuum.border import border_bars
 from ..continuum.bricks import Bricks, Shares, add_bars, constants
-from ..continuum.cell_law import CellLaw, split, stretched_tensors, turned
+from ..continuum.cell_law import CellLaw, pressed_struts, split, stretched_tensors, turned
 from ..continuum.deck import write_deck
+from ..continuum.eigen import buckling_factors
+from ..continuum.eigen import frequencies as natural_frequencies
 from ..continuum.model import (
     ContinuumModel,
     ContinuumState,
@@ -32,13 +34,16 @@ from ..design.spec import LatticeSpec
 from ..grid.placement import node_radii
 from ..io.write.vtu import write_vtu
 from ..loads.load_cases import LoadCases, with_weights
+from ..mechanics.catalogue import joint_law
 from ..mechanics.elements import PARTS, solid_stiffness
 from ..mechanics.endless import strains_held
+from ..mechanics.frame import stiffened
+from ..mechanics.joint_fit import periodic_frame
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
 from ..util.files import write_json
-from ..util.numbers import number
+from ..util.numbers import number, whole
 from ..util.progress import Monitor, ProgressCallback
 from ..util.showing import Shown
 from ..util.types import Floats, Ints
@@ -56,12 +61,14 @@ USUAL, MOST = 12_000, 150_000
 LOOKED_UP, HOMOGENISED = 17, 4
 #: Voxels along L of what is homogenised for this: moduli within 2 %.
 ALONG = 40
+#: Frequencies or load factors at most.
+MOST_MODES = 50
 #: Elements that are less full count as empty.
 EMPTY = 0.01
 #: Fewer cells across are warned of; and how far displacements were from those of beams with so
 #: many and free faces, where struts are stretched and where they are bent (docs/method.md).
 FEW_CELLS = 6
-STRETCHED, BENT = "9 %", "21 %"
+STRETCHED, BENT = "4 %", "12 %"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -72,11 +79,13 @@ class HomogenisedPart(Shown):
         model: its bricks.
         states: of the load cases.
         report: the figures, plain JSON values.
+        modes: titles and (n, 3) displacements, of natural frequencies and of buckling.
     """
 
     model: ContinuumModel
     states: tuple[ContinuumState, ...]
     report: dict[str, Any]
+    modes: tuple[tuple[str, Floats], ...] = ()
 
     def rows(self) -> list[tuple[str, str]]:
         """Names and values, for people."""
@@ -104,6 +113,7 @@ class HomogenisedPart(Shown):
                 points[f"displacement mm, {state.case.name}"] = state.displacements
                 cells[f"share of yield in the lattice, {state.case.name}"] = state.use
                 cells[f"stress in the skin MPa, {state.case.name}"] = state.skin
+            points.update(self.modes)
             write_vtu(path, model.nodes, model.elements.nodes, points, cells)
 
     def write_report(self, path: str | os.PathLike[str]) -> None:
@@ -136,6 +146,8 @@ def homogenise_part(
     loads: LoadCases,
     *,
     element: float | None = None,
+    frequencies: int = 0,
+    load_factors: int = 0,
     progress: ProgressCallback | None = None,
     monitor: Monitor | None = None,
     cache: StageCache | None = None,
@@ -147,6 +159,8 @@ def homogenise_part(
         spec: what it is filled with, graded or not.
         loads: the material, and what the part carries.
         element: edge of the bricks, mm; None for what suits the part.
+        frequencies: how many of the lowest natural ones, with the first case's supports.
+        load_factors: how many of the lowest at which the part buckles as a whole, in each case.
         progress: called with the fraction done and the stage; returning False cancels.
         monitor: in place of one of its own.
         cache: keeps the costly stages of the part.
@@ -177,19 +191,44 @@ def homogenise_part(
         )
     with monitor.stage("elements", 0.3, 0.6):
         model = continuum_model(infill, loads, element)
-    with monitor.stage("solving", 0.6, 1.0):
+    for name, count in (("frequencies", frequencies), ("load_factors", load_factors)):
+        whole(name.replace("_", " "), count, 0, MOST_MODES)
+    with monitor.stage("solving", 0.6, 0.8):
         states = solve_continuum(model, with_weights(loads).cases, monitor)
+    modes: list[tuple[str, Floats]] = []
+    hertz: list[float] = []
+    factors: list[list[float | None]] = [[] for _ in states]
+    with monitor.stage("modes", 0.8, 1.0):
+        if frequencies:
+            values, shapes = natural_frequencies(
+                model, states[0], frequencies, loads.masses, monitor
+            )
+            hertz = values.tolist()
+            modes += [(f"mode of {value:.4g} Hz", shapes[:, :, k]) for k, value in enumerate(hertz)]
+        for state, own in zip(states, factors, strict=True):
+            if load_factors:
+                values, shapes = buckling_factors(model, state, load_factors, monitor)
+                for k, value in enumerate(values.tolist()):
+                    finite = np.isfinite(value)
+                    own.append(value if finite else None)
+                    if finite:
+                        title = f"buckles at {value:.4g} times {state.case.name}"
+                        modes.append((title, shapes[:, :, k]))
     report = {
         "material": loads.material.as_dict(),
         "elements": len(model.elements.nodes),
         "element_mm": model.bricks.edge.tolist(),
         "cells_across": model.across,
         "lattice_mm3": float(model.shares.lattice.mean(axis=1).sum() * np.prod(model.bricks.edge)),
-        "cases": [figures_of(model, state) for state in states],
+        "cases": [
+            {**figures_of(model, state), "load_factors": own}
+            for state, own in zip(states, factors, strict=True)
+        ],
+        "frequencies_hz": hertz,
         "seconds": time.perf_counter() - start,
         "notes": _notes(infill, model),
     }
-    return HomogenisedPart(model, tuple(states), report)
+    return HomogenisedPart(model, tuple(states), report, tuple(modes))
 
 
 def continuum_model(
@@ -212,9 +251,10 @@ def continuum_model(
     material = loads.material
     skin = constants(solid_stiffness(material.young, material.poisson))
     matrices = bricks.matrices(shares, material.young * constants(lattice), skin)
-    if _is_whole(infill) and spec.kind.cube is not None:
-        _add_border(infill, bricks, matrices, place, (low, count), material.young)
     filled = (shares.lattice * _of(law.at(law.density, thickness)) + shares.solid).mean(axis=1)
+    if _is_whole(infill) and spec.kind.cube is not None:
+        more = _add_border(infill, bricks, matrices, place, (low, count), law, material.young)
+        filled += more / np.prod(edge) * _of_bare(infill, law)
     grid = VoxelGrid(low, edge, np.zeros(0), np.zeros(0, np.float32))
     weighing = Loaded(
         surface_body(solid, float(edge.max())), grid, elements, filled, material.density
@@ -224,9 +264,16 @@ def continuum_model(
     return ContinuumModel(
         size, low, elements, bricks, shares, matrices, material.young * lattice, frames,
         law.at(law.density, thickness), law.at(law.strength, thickness),
-        law.at(law.conductivity, thickness), material, weighing,
+        law.at(law.conductivity, thickness), _pressed(infill, law, thickness), material, weighing,
         cells_across(all_lattice, edge, spec.cell_size),
     )  # fmt: skip
+
+
+def _pressed(infill: Infill, law: CellLaw, thickness: Floats) -> Floats | None:
+    mapping = infill.placement.mapping
+    if law.pressed is None or (mapping is not None and not mapping.is_rigid):
+        return None
+    return law.at(law.pressed, thickness)
 
 
 def _of(values: Floats) -> Floats:
@@ -329,6 +376,9 @@ def cell_law(spec: LatticeSpec) -> CellLaw:
         np.array([one.stiffness for one in found]),
         np.array([[one.values["strength"], one.values["shear_strength"]] for one in found]),
         np.array([one.values["conductivity"] for one in found]),
+        None
+        if kind.cube is None
+        else np.stack([pressed_struts(kind.cube, spec.cell_size, value) for value in values]),
     )
 
 
@@ -359,9 +409,13 @@ def _lattice(infill: Infill, law: CellLaw, middles: Floats) -> tuple[Floats, Flo
 
 def _add_border(
     infill: Infill, bricks: Bricks, matrices: Floats, place: Ints, grid: tuple[Floats, Ints],
-    young: float,
-) -> None:  # fmt: skip
-    """Add the struts in free faces that the homogenised cells lack, in place."""
+    law: CellLaw, young: float,
+) -> Floats:  # fmt: skip
+    """Add the struts in free faces that the homogenised cells lack, in place.
+
+    Returns:
+        (e,) mm3 of them in each brick, joints counted as often as struts meet there.
+    """
     spec, mapping = infill.spec, infill.placement.mapping
     low, count = grid
     assert infill.cells is not None
@@ -381,7 +435,23 @@ def _add_border(
     middles = (0.5 * (points[:, 1:] + points[:, :-1])).reshape(-1, 3)
     length = np.linalg.norm(span, axis=1)
     radii = node_radii(spec.struts, middles, infill.placement)
-    sizes = np.repeat(bars.shares, pieces) * length * np.pi * radii**2 * young
+    volume = np.repeat(bars.shares, pieces) * length * np.pi * radii**2
+    sizes = volume * young
+    bent = sizes * 3.0 * radii**2 / (pieces * length) ** 2
+    whole = np.linalg.norm(bars.end - bars.start, axis=1)
+    lengths, kind = np.unique(np.round(whole, 6), return_inverse=True)
+    ends = joint_law(spec.kind.cube, cells.cell_size)
+    ratios = law.thickness / cells.cell_size
+    found = [
+        stiffened(lengths, ratio, ends(radius))
+        for ratio, radius in zip(ratios.tolist(), law.thickness.tolist(), strict=True)
+    ]
+    kind = np.repeat(kind.ravel(), pieces)
+    for k in range(len(lengths)):
+        rows = kind == k
+        for values, factor in ((sizes, 0), (bent, 1)):
+            samples = [each[factor][k] for each in found]
+            values[rows] *= np.interp(radii[rows], law.thickness, samples)
     number_of = np.full(tuple(count), -1, np.int64)
     number_of[tuple(place.T)] = np.arange(len(place))
     # A bar in a free face lies between bricks that are there and others: it takes what is there.
@@ -396,7 +466,20 @@ def _add_border(
         at[rows] = inside[rows] - where[rows]
     kept = best >= 0
     way = span[kept] / length[kept, None]
-    add_bars(matrices, bricks, best[kept], np.clip(at[kept], 0.0, 1.0), way, sizes[kept])
+    add_bars(
+        matrices, bricks, best[kept], np.clip(at[kept], 0.0, 1.0), way, sizes[kept], bent[kept]
+    )
+    return np.asarray(np.bincount(best[kept], volume[kept], len(place)), float)
+
+
+def _of_bare(infill: Infill, law: CellLaw) -> float:
+    """The volume of a cell over that of its struts, each from node to node."""
+    cell = infill.spec.kind.cube
+    assert cell is not None
+    frame = periodic_frame(cell)
+    length = np.linalg.norm(frame.end - frame.start, axis=1).sum()
+    bare = np.pi * length * (law.thickness / infill.spec.cell_size) ** 2
+    return float(np.mean(law.density / bare))
 
 
 def _notes(infill: Infill, model: ContinuumModel) -> list[str]:
@@ -440,5 +523,19 @@ def homogenised_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         if case["skin_mpa"] is not None:
             at = ", ".join(f"{value:.4g}" for value in case["skin_mpa_at"])
             rows.append(("", f"skin up to {case['skin_mpa']:.4g} MPa, nominal, at ({at}) mm"))
+        if case["strut_buckling"] is not None:
+            at = ", ".join(f"{value:.4g}" for value in case["strut_buckling_at"])
+            rows.append(
+                ("", f"struts up to {case['strut_buckling']:.0%} of what buckles them between "
+                 f"pinned ends, at ({at}) mm")
+            )  # fmt: skip
+        if case["load_factors"]:
+            told = ", ".join(
+                "none" if value is None else f"{value:.4g}" for value in case["load_factors"]
+            )
+            rows.append(("", f"buckles as a whole at so many times the loads: {told}"))
+    if report["frequencies_hz"]:
+        told = ", ".join(f"{value:.4g}" for value in report["frequencies_hz"])
+        rows.append(("natural frequencies", f"{told} Hz"))
     rows.append(("time", f"{report['seconds']:.3g} s"))
     return rows

@@ -94,9 +94,35 @@ def frame_tensor(
     Raises:
         VolfrepError: there are no struts.
     """
-    if not len(frame.struts):
-        raise VolfrepError("A frame needs at least one strut.")
     stiffness = _strut_stiffness(frame, radius, ends or Ends(), section, poisson, longest)
+    uniform, relaxed = _strained(frame, stiffness)
+    energy = np.einsum("mij,mik->jk", uniform, stiffness @ (uniform + relaxed))
+    result: Floats = energy / frame.volume
+    return result
+
+
+def frame_pulls(frame: PeriodicFrame, radius: float, ends: Ends | None = None) -> Floats:
+    """(m, 6) forces that pull at struts with Young's modulus 1 under each unit strain, Voigt.
+
+    Args:
+        frame: the struts.
+        radius: of all of them.
+        ends: how they are stiffened at both ends; None for bare beams.
+
+    Raises:
+        VolfrepError: there are no struts.
+    """
+    stiffness = _strut_stiffness(frame, radius, ends or Ends(), CIRCLE, 0.3, 0.4)
+    uniform, relaxed = _strained(frame, stiffness)
+    span = frame.end - frame.start
+    along = span / np.linalg.norm(span, axis=1)[:, None]
+    forces = stiffness @ (uniform + relaxed)
+    result: Floats = np.einsum("mi,mij->mj", along, forces[:, 6:9])
+    return result
+
+
+def _strained(frame: PeriodicFrame, stiffness: Floats) -> tuple[Floats, Floats]:
+    """(m, 12, 6) displacements of struts' ends that go with unit strains, and those they add."""
     unknown = (6 * frame.struts[:, :, None] + np.arange(6)).reshape(-1, 12)
     size = 6 * frame.nodes
     matrix = np.zeros((size, size))
@@ -112,13 +138,30 @@ def frame_tensor(
     forces = stiffness @ uniform
     load = np.zeros((size, 6))
     np.add.at(load, unknown, forces)
-    energy = np.einsum("mij,mik->jk", uniform, forces)
     values, vectors = np.linalg.eigh(matrix)
     kept = values > _NOTHING * values[-1]
-    projected = vectors[:, kept].T @ load
-    energy -= projected.T @ (projected / values[kept, None])
-    result: Floats = energy / frame.volume
-    return result
+    moved = -vectors[:, kept] @ ((vectors[:, kept].T @ load) / values[kept, None])
+    return uniform, moved[unknown]
+
+
+def stiffened(length: Floats, radius: float, ends: Ends) -> tuple[Floats, Floats]:
+    """How many times as stiff as bare beams struts with stiffened ends are.
+
+    Args:
+        length: (m,) from node to node.
+        radius: of all.
+        ends: of theirs.
+
+    Returns:
+        (m,) when pulled, and (m,) when one end moves aside and neither turns.
+    """
+    zero = np.zeros((len(length), 3))
+    far = zero + np.array([1.0, 0.0, 0.0]) * length[:, None]
+    rows = np.zeros((len(length), 2), np.int64)
+    struts = PeriodicFrame(1, rows, zero, far)
+    found = _strut_stiffness(struts, radius, ends, CIRCLE, 0.3, 0.4)
+    area = np.pi * radius**2
+    return found[:, 0, 0] * length / area, found[:, 1, 1] * length**3 / (3.0 * area * radius**2)
 
 
 def _strut_stiffness(
@@ -130,6 +173,8 @@ def _strut_stiffness(
     longest: float,
 ) -> Floats:
     """(m, 12, 12) of struts between their nodes, in global axes."""
+    if not len(frame.struts):
+        raise VolfrepError("A frame needs at least one strut.")
     span = frame.end - frame.start
     length = np.linalg.norm(span, axis=1)
     end = np.minimum(ends.length * radius, longest * length)

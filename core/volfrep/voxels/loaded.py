@@ -19,7 +19,7 @@ from scipy.spatial import cKDTree
 
 from ..loads.load_cases import LoadCase
 from ..loads.nodal_loads import Body, nodal_case, resultant, share_of
-from ..loads.regions import facet_normals
+from ..loads.regions import Region, facet_normals
 from ..mechanics.elements import CORNERS
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.proximity import closest_points
@@ -161,11 +161,7 @@ class Loaded:
         if len(acting):
             loads = np.asarray(self._weights(self.body.nodes[acting]).T @ forces)
         own = self._weight(nodal.acceleration)
-        places = []
-        for load in case.loads:
-            share = share_of(self.body, load.region)
-            weights = self._weights(self.body.nodes[share.nodes]).T @ share.weights
-            places.append((load.name, np.asarray(weights)))
+        places = [(load.name, self.weights_of(load.region)) for load in case.loads]
         of_forces, of_weight = (
             resultant(self.body.nodes[acting], forces),
             resultant(self.nodes, own),
@@ -183,6 +179,15 @@ class Loaded:
             result[rows, axis] = True
             to[rows, axis] = moved[nearest, axis]
         return result, to
+
+    def weights_of(self, region: Region) -> Floats:
+        """(n,) the nodes' parts of what a region takes, together 1.
+
+        Raises:
+            VolfrepError: it takes nothing.
+        """
+        share = share_of(self.body, region)
+        return np.asarray(self._weights(self.body.nodes[share.nodes]).T @ share.weights)
 
     def nodes_at(self, held: Bools) -> tuple[Ints, Ints]:
         """Nodes that lie on held places of the surface, and the surface's node that each is at."""

@@ -423,6 +423,8 @@ def _add_border(
     cells, active = infill.cells.padded.cells, infill.cells.active
     origin = cells.origin
     bars = border_bars(spec.kind.cube, active)
+    if not len(bars.shares):
+        return np.zeros(len(place))
     # Two pieces or more in every brick, so that a bar has no gap.
     pieces = 2 * int(np.ceil(cells.cell_size / float(bricks.edge.min()) - 1e-6))
     share = (np.arange(pieces + 1) / pieces)[None, :, None]

@@ -6,6 +6,7 @@ import pytest
 from test_continuum import PA12, WHOLE, block, end, moved
 
 from volfrep import LatticeSpec
+from volfrep.continuum.eigen import lumped_mass
 from volfrep.jobs.homogenised import cell_law, homogenise_part
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing.sizing import solve_struts
@@ -69,6 +70,16 @@ def test_struts_are_pressed_as_columns_between_pins():
     closed = 1e-3 * 4 * 10**2 / (np.pi**2 * 0.5**2)
     # Joints stiffen struts by some percent.
     assert closed < made.report["cases"][0]["strut_buckling"] < 1.08 * closed
+
+
+def test_whole_cells_with_no_strut_in_their_faces_are_solved_as_well():
+    """CVC: the mass is that of the endless lattice in as many cells."""
+    spec = LatticeSpec("CVC", strut_radius=0.8, **WHOLE)
+    made = homogenise_part(
+        block(30, 20, 20), spec, LoadCases(PA12, (moved(30, (0.1, 0, 0)),)), element=10
+    )
+    volume = cell_law(spec).density[0] * 30 * 20 * 20
+    assert lumped_mass(made.model).sum() == pytest.approx(volume * PA12.density * 1e-9)
 
 
 @pytest.mark.slow

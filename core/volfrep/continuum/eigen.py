@@ -27,8 +27,8 @@ from .model import ContinuumModel, ContinuumState, multigrid_of
 
 #: More vectors than are asked for, so that the last of these settle too.
 GUARDS = 4
-#: What is left of eigenvalues' error, relative, and the most steps.
-SETTLED, MOST_STEPS = 1e-5, 120
+#: What is left of the error of frequencies' squares, of load factors, relative; the most steps.
+SETTLED, MOST_STEPS = (1e-5, 1e-3), 120
 #: After so many steps a part that is softened by its loads this much less than it is stiffened, or
 #: by other modes, counts as one that they do not buckle.
 PATIENCE, NEGLIGIBLE = 12, 1e-3
@@ -176,7 +176,7 @@ def _lowest(
             # How far values may be off, by the energy of what is left.
             off = np.abs(np.einsum("ik,ik->k", left, ahead))[:count]
             small = values[:count] > -NEGLIGIBLE * largest
-            settled = off <= SETTLED * np.abs(values[:count]) ** power
+            settled = off <= SETTLED[power - 1] * np.abs(values[:count]) ** power
             if (settled | (small & (power == 2) & (step >= PATIENCE))).all():
                 break
             span = [

@@ -14,8 +14,11 @@ from typing import Any
 
 import numpy as np
 from scipy import ndimage
+from scipy.sparse import csr_matrix
 
 from ..loads.load_cases import LoadCase
+from ..loads.nodal_loads import nodes_in
+from ..loads.regions import Region
 from ..mechanics.assembly import System, solve
 from ..mechanics.elements import solid_stiffness, von_mises
 from ..mechanics.materials import SolidMaterial
@@ -213,46 +216,49 @@ def cells_across(shares: Floats, edge: Floats, cell_size: float) -> float:
 
 
 def conduct(
-    model: ContinuumModel, temperatures: Sequence[tuple[Any, float]], conductivity: float
+    model: ContinuumModel,
+    temperatures: Sequence[tuple[Region, float]],
+    conductivity: float,
+    powers: Sequence[tuple[Region, float]] = (),
 ) -> tuple[Floats, Floats]:
-    """Steady heat between regions of given temperatures, nothing lost elsewhere.
+    """Steady heat between regions of given temperatures, and through others; none lost elsewhere.
 
     Args:
         model: the part.
         temperatures: regions and what each is held at, K or degrees C.
         conductivity: of the solid, W/(m K).
+        powers: regions and the W that flow into the part through each.
 
     Returns:
-        (n,) temperatures of the nodes, and (regions,) W that each gives.
+        (n,) temperatures of the nodes, and (temperatures,) W that each of these regions gives.
 
     Raises:
-        VolfrepError: nothing of the part lies in a region, or there are none.
+        VolfrepError: nothing of the part lies in a region, there are none, or a piece of the part
+            hangs on none that is held.
     """
-    from scipy.sparse import csr_matrix
-
-    from ..loads.nodal_loads import nodes_in
-
-    if len(temperatures) < 2:
-        raise VolfrepError("Give two regions or more, each with its temperature.")
+    if not temperatures or len(temperatures) + len(powers) < 2:
+        raise VolfrepError("Give two regions or more, one of them with its temperature.")
     count = len(model.nodes)
     own = conductivity * 1e-3 * model.conductivity[:, None, None] * np.eye(3)
     blocks = model.bricks.conductances(model.shares, own, conductivity * 1e-3)
     rows = np.repeat(model.elements.nodes, 8, axis=1).ravel()
     columns = np.tile(model.elements.nodes, (1, 8)).ravel()
     matrix = csr_matrix((blocks.ravel(), (rows, columns)), (count, count))
-    value, held = np.zeros(count), np.full(count, -1)
-    for k, (region, given) in enumerate(temperatures):
+    value, held, given = np.zeros(count), np.full(count, -1), np.zeros(count)
+    for region, power in powers:
+        given += power * model.loaded.weights_of(region)
+    for k, (region, temperature) in enumerate(temperatures):
         surface = np.zeros(len(model.loaded.body.nodes), bool)
         surface[nodes_in(model.loaded.body, region)] = True
         at = model.loaded.nodes_at(surface)[0]
-        value[at], held[at] = given, k
+        value[at], held[at] = temperature, k
     free = (held < 0).astype(float)[:, None]
-    forces = -(matrix @ value)[:, None]
+    forces = (given - matrix @ value)[:, None]
     try:
         value += solve(System(matrix, forces, 1), forces, np.zeros(1), free)[:, 0]
     except VolfrepError as error:
         raise VolfrepError(
             "The heat's equations did not converge: do the regions hang together?"
         ) from error
-    flow = matrix @ value
+    flow = matrix @ value - given
     return value, np.array([flow[held == k].sum() for k in range(len(temperatures))])

@@ -79,6 +79,7 @@ class HomogenisedPart(Shown):
         model: its bricks.
         states: of the load cases.
         report: the figures, plain JSON values.
+        temperatures: (n,) of the nodes, where there is heat.
         modes: titles and (n, 3) displacements, of natural frequencies and of buckling.
     """
 
@@ -86,6 +87,7 @@ class HomogenisedPart(Shown):
     states: tuple[ContinuumState, ...]
     report: dict[str, Any]
     modes: tuple[tuple[str, Floats], ...] = ()
+    temperatures: Floats | None = None
 
     def rows(self) -> list[tuple[str, str]]:
         """Names and values, for people."""
@@ -114,6 +116,8 @@ class HomogenisedPart(Shown):
                 cells[f"share of yield in the lattice, {state.case.name}"] = state.use
                 cells[f"stress in the skin MPa, {state.case.name}"] = state.skin
             points.update(self.modes)
+            if self.temperatures is not None:
+                points["temperature"] = self.temperatures
             write_vtu(path, model.nodes, model.elements.nodes, points, cells)
 
     def write_report(self, path: str | os.PathLike[str]) -> None:
@@ -121,10 +125,13 @@ class HomogenisedPart(Shown):
         write_json(path, self.report)
 
     def conduct(
-        self, temperatures: Sequence[tuple[Any, float]], conductivity: float
+        self,
+        temperatures: Sequence[tuple[Any, float]],
+        conductivity: float,
+        powers: Sequence[tuple[Any, float]] = (),
     ) -> tuple[Floats, Floats]:
         """Steady heat between regions; see `continuum.model.conduct`."""
-        return conduct(self.model, temperatures, conductivity)
+        return conduct(self.model, temperatures, conductivity, powers)
 
 
 def check_homogenised_file(path: str | os.PathLike[str]) -> None:
@@ -214,6 +221,7 @@ def homogenise_part(
                     if finite:
                         title = f"buckles at {value:.4g} times {state.case.name}"
                         modes.append((title, shapes[:, :, k]))
+    warm, heat = _heat(model, loads)
     report = {
         "material": loads.material.as_dict(),
         "elements": len(model.elements.nodes),
@@ -225,10 +233,27 @@ def homogenise_part(
             for state, own in zip(states, factors, strict=True)
         ],
         "frequencies_hz": hertz,
+        "heat": heat,
         "seconds": time.perf_counter() - start,
         "notes": _notes(infill, model),
     }
-    return HomogenisedPart(model, tuple(states), report, tuple(modes))
+    return HomogenisedPart(model, tuple(states), report, tuple(modes), warm)
+
+
+def _heat(model: ContinuumModel, loads: LoadCases) -> tuple[Floats | None, list[dict[str, Any]]]:
+    """(n,) temperatures, and what each region has and gives; None and nothing without heat."""
+    if not loads.heat or loads.conductivity is None:
+        return None, []
+    held = [(one.region, one.temperature) for one in loads.heat if one.temperature is not None]
+    flows = [(one.region, one.power) for one in loads.heat if one.power is not None]
+    warm, given = conduct(model, held, loads.conductivity, flows)
+    gives = iter(given.tolist())
+    found = []
+    for one in loads.heat:
+        power = one.power if one.power is not None else next(gives)
+        mean = float(model.loaded.weights_of(one.region) @ warm)
+        found.append({"name": one.name, "temperature": mean, "power_w": power})
+    return warm, found
 
 
 def continuum_model(
@@ -539,5 +564,9 @@ def homogenised_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     if report["frequencies_hz"]:
         told = ", ".join(f"{value:.4g}" for value in report["frequencies_hz"])
         rows.append(("natural frequencies", f"{told} Hz"))
+    rows += [
+        (f"heat {one['name']}", f"{one['temperature']:.5g} degrees, gives {one['power_w']:.4g} W")
+        for one in report["heat"]
+    ]
     rows.append(("time", f"{report['seconds']:.3g} s"))
     return rows

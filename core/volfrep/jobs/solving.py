@@ -16,7 +16,7 @@ from typing import Any
 
 from ..design.memory_guard import free_memory, rounded_up
 from ..io.write.vtu import write_vtu
-from ..loads.load_cases import LoadCases, with_weights
+from ..loads.load_cases import LoadCases, refuse_heat, with_weights
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.files import write_json
@@ -210,6 +210,7 @@ def solve_solid(
             into memory.
         Cancelled: the callback said so.
     """
+    refuse_heat(loads)
     monitor = monitor or Monitor(progress)
     expected = expect(solid, voxel, len(loads.cases))
     tell(expected)

@@ -127,6 +127,28 @@ class Mass:
 
 
 @dataclass(frozen=True)
+class Heat:
+    """A region that is held at a temperature, or through which heat flows into the part.
+
+    Attributes:
+        region: where.
+        temperature: K or degrees C; None where heat flows.
+        power: W, the whole of it, by area; negative flows out.
+        name: for messages and reports.
+    """
+
+    region: Region
+    temperature: float | None = None
+    power: float | None = None
+    name: str = "heat"
+
+    def __post_init__(self) -> None:
+        given = [value for value in (self.temperature, self.power) if value is not None]
+        if len(given) != 1 or not math.isfinite(given[0]):
+            raise VolfrepError(f"'{self.name}' needs a temperature or a power: give one of them.")
+
+
+@dataclass(frozen=True)
 class LoadCase:
     """Loads that act together.
 
@@ -171,11 +193,15 @@ class LoadCases:
         material: of skin and struts.
         cases: each by itself; at least one.
         masses: of bodies that are attached in every case.
+        heat: what is warm, and what flows in; strains nothing.
+        conductivity: of the solid, W/(m K); None where there is no heat.
     """
 
     material: SolidMaterial
     cases: tuple[LoadCase, ...]
     masses: tuple[Mass, ...] = ()
+    heat: tuple[Heat, ...] = ()
+    conductivity: float | None = None
 
     def __post_init__(self) -> None:
         names = [case.name for case in self.cases]
@@ -184,6 +210,26 @@ class LoadCases:
         twice = [name for k, name in enumerate(names) if name in names[:k]]
         if twice:
             raise VolfrepError(f"Two load cases have the name '{twice[0]}': rename one.")
+        if self.heat and not (self.conductivity and 0.0 < self.conductivity < math.inf):
+            raise VolfrepError(
+                "Heat flows by the solid's conductivity: give one above 0, W/(m K), such as "
+                "conductivity = 7."
+            )
+        if self.heat and all(one.temperature is None for one in self.heat):
+            raise VolfrepError("No heat has a temperature: give one to where the heat leaves.")
+
+
+def refuse_heat(loads: LoadCases) -> None:
+    """Refuse heat where it would be left out.
+
+    Raises:
+        VolfrepError: there is some.
+    """
+    if loads.heat:
+        raise VolfrepError(
+            "Heat flows in homogenised parts only: solve it by 'volfrep homogenise', or leave the "
+            "tables [[heat]] out."
+        )
 
 
 def with_weights(loads: LoadCases) -> LoadCases:

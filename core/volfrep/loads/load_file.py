@@ -24,6 +24,7 @@ from ..util.reading import read_toml
 from ..util.types import Ints
 from .load_cases import (
     Force,
+    Heat,
     Load,
     LoadCase,
     LoadCases,
@@ -76,7 +77,10 @@ _SUPPORT = ("name", *_REGION, "fixed", "x", "y", "z")
 _LOAD = ("name", *_REGION, *_LOADS, "at", "cone")
 _CASE = ("name", "acceleration", "temperature", "support", "load")
 _MASS = ("name", *_REGION, "mass")
-_FILE = ("material", "yield_stress", "expansion", "support", "mass", "case")
+_HEAT = ("name", *_REGION, "temperature", "power")
+_FILE = (
+    "material", "yield_stress", "expansion", "conductivity", "support", "mass", "heat", "case",
+)  # fmt: skip
 
 
 def read_load_cases(path: str | os.PathLike[str], solid: TriangleMesh | None = None) -> LoadCases:
@@ -145,7 +149,11 @@ class _Reader:
             case for k, table in enumerate(tables, 1) for case in self._cases(table, common, k)
         ]
         with _at("the file"):
-            return LoadCases(material, tuple(cases), self._masses(entries, where))
+            conductivity = None
+            if "conductivity" in entries:
+                conductivity = _number(entries["conductivity"], "conductivity")
+            masses, heat = self._masses(entries, where), self._heat(entries, where)
+            return LoadCases(material, tuple(cases), masses, heat, conductivity)
 
     def _masses(self, entries: Mapping[str, Any], where: str) -> tuple[Mass, ...]:
         found = []
@@ -157,6 +165,21 @@ class _Reader:
             grams = _quantity(table["mass"], "mass", f"{place}, mass")
             with _at(place):
                 found.append(Mass(self._region(table, place), grams, _name(table, place, place)))
+        return tuple(found)
+
+    def _heat(self, entries: Mapping[str, Any], where: str) -> tuple[Heat, ...]:
+        found = []
+        for k, table in enumerate(_tables(entries, "heat", where), 1):
+            place = f"heat {k}"
+            _known(table, _HEAT, place)
+            values = {
+                key: _number(table[key], f"{place}, {key}")
+                for key in ("temperature", "power")
+                if key in table
+            }
+            with _at(place):
+                region = self._region(table, place)
+                found.append(Heat(region, **values, name=_name(table, place, place)))
         return tuple(found)
 
     def _material(self, entries: Mapping[str, Any], where: str) -> SolidMaterial:

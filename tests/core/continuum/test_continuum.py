@@ -20,7 +20,7 @@ from volfrep.design.profile import Profile
 from volfrep.io.solid import check_solid
 from volfrep.jobs.homogenised import cell_law, homogenise_part
 from volfrep.jobs.sizing.sizing import solve_struts
-from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
+from volfrep.loads.load_cases import Force, Heat, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.catalogue import catalogue
 from volfrep.mechanics.materials import find_material
@@ -186,6 +186,25 @@ def test_heat_runs_along_a_bar_as_its_conductivity_says():
     assert values[middle] == pytest.approx(60.0)
 
 
+def test_heat_that_flows_in_at_an_end_warms_lattice_and_skin():
+    """Closed form: between skin and lattice side by side, and one after the other."""
+    out, into = Heat(end(60), temperature=20.0), Heat(end(0), power=1.0, name="chip")
+    loads = LoadCases(PA12, (loaded(60),), heat=(out, into), conductivity=0.25)
+    spec = LatticeSpec("Octet", strut_radius=0.8, cell_size=10, shell=2)
+    made = homogenise_part(block(60, 30, 30), spec, loads, element=5)
+    share, whole, core = cell_law(spec).conductivity[0], 30**2, 26**2
+    beside = share * core + whole - core
+    caps = 4 / whole + 56 / beside  # sections at one temperature: least resistance
+    apart = 1 / ((whole - core) / 60 + core / (4 + 56 / share))  # no heat goes across: most
+    chip = made.report["heat"][1]
+    # Bricks of 5 mm see caps of 2 mm a little too thick.
+    assert 0.98 * caps / 0.25e-3 < chip["temperature"] - 20.0 < apart / 0.25e-3
+    assert made.report["heat"][0]["power_w"] == pytest.approx(-1.0)
+    assert ("heat chip", f"{chip['temperature']:.5g} degrees, gives 1 W") in made.rows()
+    with pytest.raises(VolfrepError, match="volfrep homogenise"):
+        solve_struts(block(60, 30, 30), spec, loads)
+
+
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
 def test_calculix_solves_the_deck_alike(tmp_path):
     spec = LatticeSpec(
@@ -213,17 +232,28 @@ def test_the_command_and_the_call_say_the_same(tmp_path, capsys):
     part, loads = tmp_path / "part.stl", tmp_path / "loads.toml"
     trimesh.Trimesh(solid.vertices, solid.triangles).export(part)
     loads.write_text(
-        'material = "PA12"\n[[support]]\nplane = {point = [0, 0, 0], normal = [1, 0, 0]}\n'
-        "fixed = true\n[[case]]\n[[case.load]]\nforce = [100, 0, 0]\n"
+        'material = "PA12"\nconductivity = 0.25\n[[support]]\n'
+        "plane = {point = [0, 0, 0], normal = [1, 0, 0]}\n"
+        "fixed = true\n[[case]]\n[[case.load]]\nforce = [-100, 0, 0]\n"
         "plane = {point = [40, 0, 0], normal = [1, 0, 0]}\n"
     )
+    with loads.open("a") as file:
+        file.write(
+            "[[heat]]\nplane = {point = [0, 0, 0], normal = [1, 0, 0]}\ntemperature = 20\n"
+            '[[heat]]\nname = "chip"\npower = 2\n'
+            "plane = {point = [40, 0, 0], normal = [1, 0, 0]}\n"
+        )
     told = tmp_path / "told.json"
     given = ["--cell", "Octet", "--cell-size", "5", "--strut-radius", "0.4", "--shell", "1"]
     call = ["homogenise", str(part), "--loads", str(loads), *given, "--report", str(told)]
+    call += ["--frequencies", "1", "--load-factors", "1", "--element", "5"]
     assert run(*call, "-o", tmp_path / "part.vtu") == 0
-    assert "cells across" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    for text in ("cells across", "natural frequencies", "buckles as a whole", "heat chip"):
+        assert text in shown
     case = json.loads(told.read_text())["cases"][0]
-    made = volfrep.homogenise(part, loads, cell="Octet", cell_size=5, strut_radius=0.4, shell=1)
+    same = {"cell": "Octet", "cell_size": 5, "strut_radius": 0.4, "shell": 1, "element": 5}
+    made = volfrep.homogenise(part, loads, **same)
     assert made.report["cases"][0]["displacement_mm"] == pytest.approx(case["displacement_mm"])
     assert (tmp_path / "part.vtu").stat().st_size > 10_000
     assert run(*call, "-o", tmp_path / "part.obj") == 2

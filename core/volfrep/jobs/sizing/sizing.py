@@ -14,7 +14,7 @@ import numpy as np
 
 from ...design.parameters.specification import values_of
 from ...design.spec import LatticeSpec
-from ...loads.load_cases import LoadCases, with_weights
+from ...loads.load_cases import LoadCases, refuse_heat, with_weights
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.sizing_report import sizing_report
 from ...sizing.analysis import Analysis, Limits, Problem, analyse
@@ -129,6 +129,7 @@ def size(
         Cancelled: the callback said so before there was a design.
     """
     monitor, cache = monitor or Monitor(progress), cache or StageCache()
+    refuse_heat(loads)
     loads = with_weights(loads)
     start = time.perf_counter()
     task = _prepare(solid, spec, loads, _checked(goal or Goal()), monitor, cache, progress)
@@ -509,6 +510,7 @@ def solve_struts(
     radii = np.zeros(len(frame.nodes))
     radii[frame.struts] = frame.radii
     used = radii[radii > 0.0]
+    refuse_heat(loads)
     loads = with_weights(loads)
     goal = Goal(thinnest=0.999 * float(used.min()), thickest=1.001 * float(used.max()))
     model = part_model(infill, loads, goal, cache)

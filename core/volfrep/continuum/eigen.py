@@ -102,7 +102,7 @@ def buckling_factors(
     """
     solver = multigrid_of(model, ~state.case.held, monitor)
     free = solver.fine.free
-    pulled = geometric_stiffness(model, state.displacements)
+    pulled = geometric_stiffness(model, state.strained)
     values, modes, largest = _lowest(
         solver, lambda moved: (pulled @ moved) * free, solver.fine, count, 2, "buckling loads"
     )
@@ -110,12 +110,12 @@ def buckling_factors(
     return np.where(pressed, -1.0 / np.where(pressed, values, 1.0), np.inf), modes
 
 
-def geometric_stiffness(model: ContinuumModel, moved: Floats) -> Any:
+def geometric_stiffness(model: ContinuumModel, own: Floats) -> Any:
     """(n, n) N/mm, sparse, what stress adds to the stiffness of each direction.
 
     Args:
         model: the part.
-        moved: (n, 3) mm of the case whose stress it is.
+        own: (e, 24) mm, displacements that strain each brick.
     """
     centres = part_centres()
     slopes = gradients(centres) / model.bricks.edge
@@ -133,7 +133,7 @@ def geometric_stiffness(model: ContinuumModel, moved: Floats) -> Any:
     lattice = np.broadcast_to(model.lattice, (count, 6, 6))
     blocks = np.empty((count, 64))
     for rows in np.array_split(np.arange(count), count // AT_ONCE + 1):
-        strain = (moved[nodes[rows]].reshape(-1, 24) @ strains.T).reshape(len(rows), -1, 6)
+        strain = (own[rows] @ strains.T).reshape(len(rows), -1, 6)
         stress = model.shares.lattice[rows][:, :, None] * (strain @ lattice[rows])
         stress += model.shares.solid[rows][:, :, None] * (strain @ solid)
         blocks[rows] = stress.reshape(len(rows), -1) @ table.reshape(-1, 64)

@@ -9,7 +9,7 @@ is told, which is never less than what all of them together take.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from ..loads.load_cases import LoadCase
 from ..loads.nodal_loads import nodes_in
 from ..loads.regions import Region
 from ..mechanics.assembly import System, solve
-from ..mechanics.elements import solid_stiffness, von_mises
+from ..mechanics.elements import CORNERS, solid_stiffness, von_mises
 from ..mechanics.materials import SolidMaterial
 from ..util.errors import VolfrepError
 from ..util.peaks import row_of_most
@@ -87,6 +87,7 @@ class ContinuumState:
     Attributes:
         case: on the nodes.
         displacements: (n, 3) mm.
+        strained: (e, 24) mm, those of each brick's nodes beside its growth by heat.
         work: N mm, twice the energy.
         use: (e,) share of the solid's yield stress in the lattice, at most; nan without one.
         skin: (e,) MPa, von Mises in skin and kept solids, nominal; 0 where there is none.
@@ -97,6 +98,7 @@ class ContinuumState:
 
     case: VoxelCase
     displacements: Floats
+    strained: Floats
     work: float
     use: Floats
     skin: Floats
@@ -109,8 +111,16 @@ def solve_continuum(
     cases: Sequence[LoadCase],
     monitor: Monitor | None = None,
     tolerance: float = 1e-6,
+    warm: Floats | None = None,
 ) -> list[ContinuumState]:
     """Solve load cases: those with equal supports with one solver.
+
+    Args:
+        model: the part.
+        cases: what it carries.
+        monitor: asked for a cancel.
+        tolerance: of the forces that are left, over the loads.
+        warm: (n,) temperatures of the nodes, for cases that grow by them.
 
     Raises:
         VolfrepError: a case does not fit the part, or it is not held.
@@ -123,10 +133,32 @@ def solve_continuum(
 
     def state_of(case: VoxelCase, moved: Floats, forces: Floats, steps: int) -> ContinuumState:
         work = float(np.vdot(moved, forces))
-        struts = _pressed(model, moved)
-        return ContinuumState(case, moved, work, *_stress(model, moved), struts, steps)
+        own = moved[model.elements.nodes].reshape(-1, 24)
+        if case.name in free_growth:
+            own = own - free_growth[case.name]
+        return ContinuumState(
+            case, moved, own, work, *_stress(model, own), _pressed(model, own), steps
+        )
 
-    return solve_laid([model.loaded.case(case) for case in cases], solver_of, state_of, tolerance)
+    free_growth: dict[str, Floats] = {}
+    laid = []
+    for case in cases:
+        on_nodes = model.loaded.case(case)
+        if case.heated is not None and warm is not None:
+            own = free_growth[case.name] = _growth(model, warm, *case.heated)
+            forces = (model.matrices @ own[:, :, None]).reshape(-1, 3)
+            loads = on_nodes.loads.copy()
+            np.add.at(loads, model.elements.nodes.ravel(), forces)
+            on_nodes = replace(on_nodes, loads=loads)
+        laid.append(on_nodes)
+    return solve_laid(laid, solver_of, state_of, tolerance)
+
+
+def _growth(model: ContinuumModel, warm: Floats, coefficient: float, reference: float) -> Floats:
+    """(e, 24) displacements of each brick's nodes if it grew alone, by its mean temperature."""
+    strain = coefficient * (warm[model.elements.nodes].mean(axis=1) - reference)
+    result: Floats = strain[:, None] * (CORNERS * model.bricks.edge).ravel()
+    return result
 
 
 def multigrid_of(model: ContinuumModel, free: Bools, monitor: Monitor | None = None) -> Multigrid:
@@ -140,9 +172,13 @@ def multigrid_of(model: ContinuumModel, free: Bools, monitor: Monitor | None = N
     return Multigrid(fine, model.size, monitor)
 
 
-def _stress(model: ContinuumModel, moved: Floats) -> tuple[Floats, Floats]:
-    """(e,) share of yield in the lattice, at most, and (e,) MPa in the skin."""
-    own = moved[model.elements.nodes].reshape(-1, 24)
+def _stress(model: ContinuumModel, own: Floats) -> tuple[Floats, Floats]:
+    """(e,) share of yield in the lattice, at most, and (e,) MPa in the skin.
+
+    Args:
+        model: the part.
+        own: (e, 24) displacements of each brick's nodes, mm, beside its growth by heat.
+    """
     strains = model.bricks.strains(np.vstack([[[0.5] * 3], (POINTS + 1.0) / 2.0]))
     middle = own @ strains[0].T
     stress = (model.lattice @ middle[:, :, None])[:, :, 0]
@@ -161,11 +197,10 @@ def _stress(model: ContinuumModel, moved: Floats) -> tuple[Floats, Floats]:
     return use, skin
 
 
-def _pressed(model: ContinuumModel, moved: Floats) -> Floats | None:
+def _pressed(model: ContinuumModel, own: Floats) -> Floats | None:
     """(e,) of the most pressed strut of the lattice; None where that is not known."""
     if model.pressed is None:
         return None
-    own = moved[model.elements.nodes].reshape(-1, 24)
     strain = own @ model.bricks.strains(np.full((1, 3), 0.5))[0].T
     half = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
     local = in_cell(strain * half, np.broadcast_to(model.frames, (len(own), 3, 3))) / half

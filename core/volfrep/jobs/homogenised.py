@@ -201,7 +201,8 @@ def homogenise_part(
     for name, count in (("frequencies", frequencies), ("load_factors", load_factors)):
         whole(name.replace("_", " "), count, 0, MOST_MODES)
     with monitor.stage("solving", 0.6, 0.8):
-        states = solve_continuum(model, with_weights(loads).cases, monitor)
+        warm, heat = _heat(model, loads)
+        states = solve_continuum(model, with_weights(loads).cases, monitor, warm=warm)
     modes: list[tuple[str, Floats]] = []
     hertz: list[float] = []
     factors: list[list[float | None]] = [[] for _ in states]
@@ -221,7 +222,6 @@ def homogenise_part(
                     if finite:
                         title = f"buckles at {value:.4g} times {state.case.name}"
                         modes.append((title, shapes[:, :, k]))
-    warm, heat = _heat(model, loads)
     report = {
         "material": loads.material.as_dict(),
         "elements": len(model.elements.nodes),

@@ -160,6 +160,8 @@ class LoadCase:
             (0, 0, -9810) where z is up.
         expansion: the strain by which an even change of temperature makes the part larger where
             nothing holds it.
+        heated: a coefficient of expansion, and the temperature at which the part has no stress,
+            where it grows by the steady heat; None where it does not.
     """
 
     name: str
@@ -167,6 +169,7 @@ class LoadCase:
     loads: tuple[Load, ...] = ()
     acceleration: Vector = (0.0, 0.0, 0.0)
     expansion: float = 0.0
+    heated: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         _check(f"acceleration of '{self.name}'", self.acceleration)
@@ -178,7 +181,8 @@ class LoadCase:
         if not self.supports:
             raise VolfrepError(f"The load case '{self.name}' has no support: the part would fly.")
         moved = any(value for support in self.supports for value in support.displacement)
-        if not (self.loads or any(self.acceleration) or moved or self.expansion):
+        strained = self.expansion or self.heated
+        if not (self.loads or any(self.acceleration) or moved or strained):
             raise VolfrepError(
                 f"The load case '{self.name}' has no load: give a force, a moment, a pressure, an "
                 "acceleration, a displacement or a temperature."
@@ -193,7 +197,7 @@ class LoadCases:
         material: of skin and struts.
         cases: each by itself; at least one.
         masses: of bodies that are attached in every case.
-        heat: what is warm, and what flows in; strains nothing.
+        heat: what is warm, and what flows in.
         conductivity: of the solid, W/(m K); None where there is no heat.
     """
 
@@ -210,6 +214,8 @@ class LoadCases:
         twice = [name for k, name in enumerate(names) if name in names[:k]]
         if twice:
             raise VolfrepError(f"Two load cases have the name '{twice[0]}': rename one.")
+        if not self.heat and any(case.heated for case in self.cases):
+            raise VolfrepError("A case has the temperature of the heat, and there is no [[heat]].")
         if self.heat and not (self.conductivity and 0.0 < self.conductivity < math.inf):
             raise VolfrepError(
                 "Heat flows by the solid's conductivity: give one above 0, W/(m K), such as "

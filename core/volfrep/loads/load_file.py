@@ -79,7 +79,8 @@ _CASE = ("name", "acceleration", "temperature", "support", "load")
 _MASS = ("name", *_REGION, "mass")
 _HEAT = ("name", *_REGION, "temperature", "power")
 _FILE = (
-    "material", "yield_stress", "expansion", "conductivity", "support", "mass", "heat", "case",
+    "material", "yield_stress", "expansion", "reference", "conductivity", "support", "mass",
+    "heat", "case",
 )  # fmt: skip
 
 
@@ -134,6 +135,7 @@ class _Reader:
         self.folder, self.solid = folder, solid
         self._numbers: Ints | None = None
         self.expansion: float | None = None
+        self.reference = 20.0
 
     def cases(self, entries: Mapping[str, Any]) -> LoadCases:
         where = "the file"
@@ -141,6 +143,8 @@ class _Reader:
         material = self._material(entries, where)
         if "expansion" in entries:
             self.expansion = _number(entries["expansion"], "expansion")
+        if "reference" in entries:
+            self.reference = _number(entries["reference"], "reference")
         common = self._supports(entries, where)
         tables = _tables(entries, "case", where)
         if not tables:
@@ -218,7 +222,10 @@ class _Reader:
         pull = (0.0, 0.0, 0.0)
         if "acceleration" in table:
             pull = _vector(table["acceleration"], "acceleration", f"{where}, acceleration")
-        strain = self._strain(table, where)
+        heated = None
+        if table.get("temperature") == "heat":
+            heated = self._coefficient(where), self.reference
+        strain = 0.0 if heated else self._strain(table, where)
         own = self._supports(table, where)
         cones = [
             (j, load["cone"]) for j, load in enumerate(_tables(table, "load", where))
@@ -227,7 +234,7 @@ class _Reader:
         if len(cones) > 1:
             raise VolfrepError(f"{where}: {len(cones)} loads have a cone: give it to one.")
         with _at(where):
-            case = LoadCase(name, common + own, loads, pull, strain)
+            case = LoadCase(name, common + own, loads, pull, strain, heated)
             for j, angle in cones:
                 if isinstance(angle, bool) or not isinstance(angle, (int, float)):
                     raise VolfrepError(f"{where}, cone: {angle!r} is no number of degrees.")
@@ -238,12 +245,15 @@ class _Reader:
         """By which a case's temperature makes the part larger."""
         if "temperature" not in table:
             return 0.0
+        return self._coefficient(where) * _number(table["temperature"], f"{where}, temperature")
+
+    def _coefficient(self, where: str) -> float:
         if self.expansion is None:
             raise VolfrepError(
                 f"{where}, temperature: the file needs the material's expansion, such as "
                 "expansion = 9e-6 a degree, before the first [[case]]."
             )
-        return self.expansion * _number(table["temperature"], f"{where}, temperature")
+        return self.expansion
 
     def _supports(self, table: Mapping[str, Any], where: str) -> tuple[Support, ...]:
         return tuple(

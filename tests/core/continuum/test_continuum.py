@@ -21,7 +21,7 @@ from volfrep.io.solid import check_solid
 from volfrep.jobs.homogenised import cell_law, homogenise_part
 from volfrep.jobs.sizing.sizing import solve_struts
 from volfrep.loads.load_cases import Force, Heat, LoadCase, LoadCases, Support
-from volfrep.loads.regions import InPlane
+from volfrep.loads.regions import InPlane, NearPoint
 from volfrep.mechanics.catalogue import catalogue
 from volfrep.mechanics.materials import find_material
 from volfrep.mechanics.tensor import young
@@ -205,6 +205,31 @@ def test_heat_that_flows_in_at_an_end_warms_lattice_and_skin():
         solve_struts(block(60, 30, 30), spec, loads)
 
 
+def test_a_bar_that_is_warm_at_one_end_grows_without_stress_and_presses_where_it_is_held():
+    """Closed form: by the mean of its temperature; held, by E times that strain at most."""
+    warm = (Heat(end(0), temperature=20.0), Heat(end(60), temperature=120.0))
+    points = (
+        Support(NearPoint((0, 0, 0), 1)),
+        Support(NearPoint((0, 30, 0), 1), (0.0, None, 0.0)),
+        Support(NearPoint((0, 0, 30), 1), (0.0, None, None)),
+    )
+    free = LoadCase("free", points, heated=(1e-4, 20.0))
+    ends = (Support(end(0), turns=FREE), Support(end(60), (0.0, None, None), FREE))
+    held = LoadCase("held", ends, heated=(1e-4, 20.0))
+    loads = LoadCases(PA12, (free, held), heat=warm, conductivity=0.25)
+    spec = LatticeSpec("Octet", strut_radius=0.8, cell_size=10, shell=0)
+    made = homogenise_part(block(60, 30, 30), spec, loads, element=5)
+    along = [made.states[0].displacements[np.abs(made.model.nodes[:, 0] - x) < 1e-6, 0].mean()
+             for x in (0, 60)]  # fmt: skip
+    assert along[1] - along[0] == pytest.approx(1e-4 * 50 * 60, rel=0.01)
+    stretched = moved(60, (-0.3, None, None))
+    same = homogenise_part(block(60, 30, 30), spec, LoadCases(PA12, (stretched,)), element=5)
+    most = float(np.median(same.states[0].use))
+    # What bricks of 5 mm cannot follow of how its sections bow.
+    assert made.states[0].use.max() < 0.12 * most
+    assert np.median(made.states[1].use) == pytest.approx(most, rel=0.1)
+
+
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
 def test_calculix_solves_the_deck_alike(tmp_path):
     spec = LatticeSpec(
@@ -232,13 +257,14 @@ def test_the_command_and_the_call_say_the_same(tmp_path, capsys):
     part, loads = tmp_path / "part.stl", tmp_path / "loads.toml"
     trimesh.Trimesh(solid.vertices, solid.triangles).export(part)
     loads.write_text(
-        'material = "PA12"\nconductivity = 0.25\n[[support]]\n'
+        'material = "PA12"\nconductivity = 0.25\nexpansion = 1e-4\n[[support]]\n'
         "plane = {point = [0, 0, 0], normal = [1, 0, 0]}\n"
         "fixed = true\n[[case]]\n[[case.load]]\nforce = [-100, 0, 0]\n"
         "plane = {point = [40, 0, 0], normal = [1, 0, 0]}\n"
     )
     with loads.open("a") as file:
         file.write(
+            '[[case]]\nname = "warm"\ntemperature = "heat"\n'
             "[[heat]]\nplane = {point = [0, 0, 0], normal = [1, 0, 0]}\ntemperature = 20\n"
             '[[heat]]\nname = "chip"\npower = 2\n'
             "plane = {point = [40, 0, 0], normal = [1, 0, 0]}\n"
@@ -251,7 +277,8 @@ def test_the_command_and_the_call_say_the_same(tmp_path, capsys):
     shown = capsys.readouterr().out
     for text in ("cells across", "natural frequencies", "buckles as a whole", "heat chip"):
         assert text in shown
-    case = json.loads(told.read_text())["cases"][0]
+    case, warm = json.loads(told.read_text())["cases"]
+    assert warm["displacement_mm"] > 0.0
     same = {"cell": "Octet", "cell_size": 5, "strut_radius": 0.4, "shell": 1, "element": 5}
     made = volfrep.homogenise(part, loads, **same)
     assert made.report["cases"][0]["displacement_mm"] == pytest.approx(case["displacement_mm"])

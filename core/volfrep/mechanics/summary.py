@@ -34,6 +34,10 @@ POISSON = 0.3
 #: The moduli of a summary, in the order they are told.
 MODULI = ("E100", "E110", "E111", "G", "bulk")
 RATIOS = ("nu", "zener")
+#: What moduli and ratios are called in tables for people; others by their names.
+CALLED = {"E100": "E along [100]", "E110": "E along [110]", "E111": "E along [111]",
+          "G": "shear modulus", "bulk": "bulk modulus", "nu": "Poisson's ratio",
+          "zener": "Zener anisotropy"}  # fmt: skip
 #: Entries of a stiffness that differ by less than this part of the largest are alike.
 _CUBIC = 1e-3
 #: A modulus below this part of the largest stiffness is that of what carries nothing.
@@ -194,7 +198,7 @@ class CellProperties(Shown):
                 text = self._told_strength(name)
             elif name == "conductivity":
                 text += " of the solid's"
-            rows.append((name.replace("_", " "), text))
+            rows.append((CALLED.get(name, name.replace("_", " ")), text))
         return rows
 
     @property

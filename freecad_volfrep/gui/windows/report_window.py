@@ -54,8 +54,9 @@ WORDS = marked(
     "displacements differ by, %",
     "largest stress there over here", "lowest frequency there over here", "Notes", "Steps", "step",
     "mass, g", "most used limit",
-    "What the lattice does", "relative density", "density", "E100", "E110", "E111", "G", "bulk",
-    "nu", "zener", "strength", "shear strength", "conductivity", "E along x", "E along y",
+    "What the lattice does", "relative density", "density", "E along [100]",
+    "E along [110]", "E along [111]", "shear modulus", "bulk modulus", "Poisson's ratio",
+    "Zener anisotropy", "strength", "shear strength", "conductivity", "E along x", "E along y",
     "E along z", "strength along x", "strength along y", "strength along z",
     "least strength along x, y, z",
 )  # fmt: skip

@@ -3191,6 +3191,18 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Kopieren</translation>
     </message>
     <message>
+      <source>E along [100]</source>
+      <translation>E-Modul längs [100]</translation>
+    </message>
+    <message>
+      <source>E along [110]</source>
+      <translation>E-Modul längs [110]</translation>
+    </message>
+    <message>
+      <source>E along [111]</source>
+      <translation>E-Modul längs [111]</translation>
+    </message>
+    <message>
       <source>E along x</source>
       <translation>E entlang x</translation>
     </message>
@@ -3203,24 +3215,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>E entlang z</translation>
     </message>
     <message>
-      <source>E100</source>
-      <translation>E100</translation>
-    </message>
-    <message>
-      <source>E110</source>
-      <translation>E110</translation>
-    </message>
-    <message>
-      <source>E111</source>
-      <translation>E111</translation>
-    </message>
-    <message>
       <source>FreeCAD's own checks</source>
       <translation>FreeCADs eigene Prüfungen</translation>
-    </message>
-    <message>
-      <source>G</source>
-      <translation>G</translation>
     </message>
     <message>
       <source>Inputs</source>
@@ -3233,6 +3229,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Peak memory at the end of each stage, MB</source>
       <translation>Höchster Speicher am Ende jedes Schritts, MB</translation>
+    </message>
+    <message>
+      <source>Poisson's ratio</source>
+      <translation>Querkontraktionszahl</translation>
     </message>
     <message>
       <source>Result of the last update</source>
@@ -3279,6 +3279,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Was das Gitter leistet</translation>
     </message>
     <message>
+      <source>Zener anisotropy</source>
+      <translation>Zener-Anisotropie</translation>
+    </message>
+    <message>
       <source>a solid</source>
       <translation>ein Volumenkörper</translation>
     </message>
@@ -3319,7 +3323,7 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Knicken, % der Grenze</translation>
     </message>
     <message>
-      <source>bulk</source>
+      <source>bulk modulus</source>
       <translation>Kompressionsmodul</translation>
     </message>
     <message>
@@ -3495,10 +3499,6 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>keine</translation>
     </message>
     <message>
-      <source>nu</source>
-      <translation>nu</translation>
-    </message>
-    <message>
       <source>one radius, as near as it gets</source>
       <translation>ein Radius, so nah es geht</translation>
     </message>
@@ -3521,6 +3521,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>relative density, %</source>
       <translation>relative Dichte, %</translation>
+    </message>
+    <message>
+      <source>shear modulus</source>
+      <translation>Schubmodul</translation>
     </message>
     <message>
       <source>shear strength</source>
@@ -3673,10 +3677,6 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>yes</source>
       <translation>ja</translation>
-    </message>
-    <message>
-      <source>zener</source>
-      <translation>Zener-Verhältnis</translation>
     </message>
   </context>
   <context>

@@ -3191,6 +3191,18 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Copia</translation>
     </message>
     <message>
+      <source>E along [100]</source>
+      <translation>E lungo [100]</translation>
+    </message>
+    <message>
+      <source>E along [110]</source>
+      <translation>E lungo [110]</translation>
+    </message>
+    <message>
+      <source>E along [111]</source>
+      <translation>E lungo [111]</translation>
+    </message>
+    <message>
       <source>E along x</source>
       <translation>E lungo x</translation>
     </message>
@@ -3203,24 +3215,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>E lungo z</translation>
     </message>
     <message>
-      <source>E100</source>
-      <translation>E100</translation>
-    </message>
-    <message>
-      <source>E110</source>
-      <translation>E110</translation>
-    </message>
-    <message>
-      <source>E111</source>
-      <translation>E111</translation>
-    </message>
-    <message>
       <source>FreeCAD's own checks</source>
       <translation>Controlli di FreeCAD</translation>
-    </message>
-    <message>
-      <source>G</source>
-      <translation>G</translation>
     </message>
     <message>
       <source>Inputs</source>
@@ -3233,6 +3229,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Peak memory at the end of each stage, MB</source>
       <translation>Memoria massima alla fine di ogni fase, MB</translation>
+    </message>
+    <message>
+      <source>Poisson's ratio</source>
+      <translation>coefficiente di Poisson</translation>
     </message>
     <message>
       <source>Result of the last update</source>
@@ -3279,6 +3279,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Che cosa fa il reticolo</translation>
     </message>
     <message>
+      <source>Zener anisotropy</source>
+      <translation>anisotropia di Zener</translation>
+    </message>
+    <message>
       <source>a solid</source>
       <translation>un solido</translation>
     </message>
@@ -3319,7 +3323,7 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>instabilità, % del limite</translation>
     </message>
     <message>
-      <source>bulk</source>
+      <source>bulk modulus</source>
       <translation>modulo di comprimibilità</translation>
     </message>
     <message>
@@ -3495,10 +3499,6 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>nessuno</translation>
     </message>
     <message>
-      <source>nu</source>
-      <translation>nu</translation>
-    </message>
-    <message>
       <source>one radius, as near as it gets</source>
       <translation>raggio unico, il più vicino possibile</translation>
     </message>
@@ -3521,6 +3521,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>relative density, %</source>
       <translation>densità relativa, %</translation>
+    </message>
+    <message>
+      <source>shear modulus</source>
+      <translation>modulo di taglio</translation>
     </message>
     <message>
       <source>shear strength</source>
@@ -3673,10 +3677,6 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>yes</source>
       <translation>sì</translation>
-    </message>
-    <message>
-      <source>zener</source>
-      <translation>rapporto di Zener</translation>
     </message>
   </context>
   <context>
@@ -4095,7 +4095,7 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     </message>
     <message>
       <source>bulk modulus</source>
-      <translation>modulo di compressibilità</translation>
+      <translation>modulo di comprimibilità</translation>
     </message>
     <message>
       <source>conductivity, of the solid's</source>

@@ -396,6 +396,10 @@ def use_the_cell_library(doc, obj):
     click(toolbar_button("Cell Library"))
     check("the library opens", wait_until(lambda: window("VolfrepCellLibrary") is not None))
     library = window("VolfrepCellLibrary")
+    # Its layout's, with what a desktop puts around it: a screen of 800 has room for it.
+    check(
+        "it fits a low screen", library.minimumSizeHint().height() <= 720, library.minimumSizeHint()
+    )
     cells = library.findChild(QtGui.QListWidget, "Cells")
     note = library.findChild(QtGui.QLabel, "Note")
     told = library.findChild(QtGui.QLabel, "Figures")

@@ -25,6 +25,8 @@ from .cell_window import CellWindow, show_one
 
 #: Of the list's pictures and of the large one, px.
 SMALL, LARGE = 84, 220
+#: Least width of what is said beside the pictures, px.
+BESIDE = 410
 #: Height of the sentences on a cell, px.
 NOTES = 56
 _CONTEXT = "VolfrepCells"
@@ -195,7 +197,9 @@ class CellLibrary(CellWindow):
         return button
 
     def _lay_out(self) -> None:
-        right = QtWidgets.QVBoxLayout()
+        beside = QtWidgets.QWidget()
+        right = QtWidgets.QVBoxLayout(beside)
+        right.setContentsMargins(0, 0, 0, 0)
         right.addWidget(self._picture)
         right.addWidget(self._figures)
         right.addWidget(self._does)
@@ -205,7 +209,13 @@ class CellLibrary(CellWindow):
         left.addWidget(self._list, 1)
         both = QtWidgets.QHBoxLayout()
         both.addLayout(left, 1)
-        both.addLayout(right)
+        # Scrolled, too, where the screen is low.
+        scrolled = QtWidgets.QScrollArea()
+        scrolled.setWidget(beside)
+        scrolled.setWidgetResizable(True)
+        scrolled.setFrameShape(QtWidgets.QFrame.NoFrame)
+        scrolled.setMinimumWidth(BESIDE)
+        both.addWidget(scrolled)
         line = QtWidgets.QHBoxLayout()
         for button in self._buttons.values():
             line.addWidget(button)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 import FreeCAD as App
+import FreeCADGui as Gui
 import numpy as np
 from numpy.typing import NDArray
 
@@ -203,7 +204,8 @@ def _text(text: str, place: tuple[float, float, float]) -> Any:
     move = coin.SoTranslation()
     move.translation = place
     font = coin.SoFont()
-    font.name, font.size = FONT, LETTERS
+    # Coin counts the screen's own pixels.
+    font.name, font.size = FONT, LETTERS * Gui.getMainWindow().devicePixelRatioF()
     words = coin.SoText2()
     words.string = text
     return drawing.separate(ink, move, font, words)

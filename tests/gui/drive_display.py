@@ -329,6 +329,16 @@ def colourful(name):
     return float(((green > 1.4 * blue) & (green > 90)).mean())
 
 
+def colours_come(name, plain):
+    """Whether the lattice comes to be drawn in more colours than before, in a kept picture."""
+
+    def are_there():
+        picture(name)
+        return colourful(name) > plain + 0.02
+
+    return wait_until(are_there)
+
+
 @costly
 def colours(obj):
     """Coloured by radius, cell size and overhang, with a legend; the mouse reads off values."""
@@ -346,14 +356,15 @@ def colours(obj):
     dock = colours_dock()
     quantity = dock.findChild(QtGui.QComboBox, "Quantity")
     low, high = (dock.findChild(QtGui.QDoubleSpinBox, name) for name in ("From", "To"))
-    check("it begins with the radius", view.ColourBy == "Radius", view.ColourBy)
+    begins = wait_until(lambda: view.ColourBy == "Radius")
+    check("it begins with the radius", begins, view.ColourBy)
     check("there is a legend", wait_until(lambda: legends() == 1), legends())
     wait_until(low.isEnabled)
+    reach = wait_until(lambda: np.allclose((low.value(), high.value()), (0.6, 1.4), atol=0.05))
     ends = low.value(), high.value()
-    check("from the smallest to the largest", np.allclose(ends, (0.6, 1.4), atol=0.05), ends)
-    picture("colours_1_radius")
-    plain, coloured = colourful("colours_0_none"), colourful("colours_1_radius")
-    check("the lattice has the colours", coloured > plain + 0.02, (plain, coloured))
+    check("from the smallest to the largest", reach, ends)
+    plain = colourful("colours_0_none")
+    check("the lattice has the colours", colours_come("colours_1_radius", plain), plain)
     said = dock.findChild(QtGui.QLabel, "Said")
 
     def value_at(x):
@@ -365,6 +376,8 @@ def colours(obj):
         for step in range(12):
             said.setText("")
             move_mouse(QtCore.QPoint(point.x() + place[0] + 3 * step, point.y() - place[1]))
+            # Beside the lattice another sentence comes first, and stays.
+            comes_true(lambda: said.text() != "", 10)
             if comes_true(lambda: said.text()[:1].isdigit(), 3):
                 return float(said.text().split()[0])
             texts.append(said.text())
@@ -372,8 +385,9 @@ def colours(obj):
 
     values = value_at(6), value_at(34)
     figures["values under the mouse"] = values
-    check("the mouse reads off radii", all(isinstance(v, float) for v in values), values)
-    check("which grow along X", values[0] < values[1], values)
+    read = all(isinstance(value, float) for value in values)
+    check("the mouse reads off radii", read, values)
+    check("which grow along X", read and values[0] < values[1], values)
     click(high)
     xdotool("key", "ctrl+a")
     xdotool("type", "1")
@@ -386,7 +400,6 @@ def colours(obj):
     click(dock.findChild(QtGui.QPushButton, "Automatic"))
     check("and given back", wait_until(lambda: view.ColourFrom == view.ColourTo == 0.0))
     quantity.setCurrentIndex(quantity.findData("Overhang"))
-    settle()
     check("overhangs go to 90 degrees", wait_until(lambda: high.value() == 90.0), high.value())
     picture("colours_3_overhang")
     saved_picture = OUT / "colours_picture.png"
@@ -405,9 +418,10 @@ def colours(obj):
           ((0.0, 2.0), (1.0, 1.0))] == [5, 1])  # fmt: skip
     dock.close()
     settle()
+    check("the dock closes", wait_until(lambda: colours_dock() is None))
     check("colours stay without the dock", view.ColourBy == "Overhang" and legends() == 1)
     view.Visibility = False
-    check("the legend goes with the infill", legends() == 0, legends())
+    check("the legend goes with the infill", wait_until(lambda: legends() == 0), legends())
     view.Visibility = True
     settle()
     saved = OUT / "colours.FCStd"
@@ -423,15 +437,12 @@ def colours(obj):
     settle()
     choice = panel_part("ColourBy")
     choice.setCurrentIndex(choice.findData("Radius"))
-    settle()
-    picture("colours_4_preview")
-    check("the preview has the colours", colourful("colours_4_preview") > plain + 0.02)
-    check("and a legend", legends() == 1, legends())
+    check("the preview has the colours", colours_come("colours_4_preview", plain))
+    check("and a legend", wait_until(lambda: legends() == 1), legends())
     answer_panel("Cancel")
     settle()
     again.ViewObject.ColourBy = "None"
-    settle()
-    check("none is none", legends() == 0, legends())
+    check("none is none", wait_until(lambda: legends() == 0), legends())
 
 
 @slow

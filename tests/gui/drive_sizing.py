@@ -523,35 +523,42 @@ def make_more_cases(doc, obj):
     loads, cases = part("Loads", QtGui.QListWidget), part("Cases", QtGui.QListWidget)
     rows = lambda: [loads.item(k).text() for k in range(loads.count())]  # noqa: E731
     click(part("Size"))
-    check("without a case it says what to do", "load case" in part("Said").text())
-    check("and picks no more", not part("AddHeld").isChecked())
+    check(
+        "without a case it says what to do", wait_until(lambda: "load case" in part("Said").text())
+    )
+    check("and picks no more", wait_until(lambda: not part("AddHeld").isChecked()))
     click(part("AddHeld"))
+    wait_until(part("AddHeld").isChecked)
     click_in_view(front, lambda: len(rows()) == 1)
     click(part("AddPressure"))
-    check("the next thing to do is said", "under pressure" in part("Hint").text())
+    check("the next thing is said", wait_until(lambda: "under pressure" in part("Hint").text()))
     click_in_view(top, lambda: rows()[1:] == ["Pressure 1 MPa: Face6"])
     click(part("NewCase"))
-    check("another case is held alike", rows() == ["Held: Face3"], rows())
+    check("another case is held alike", wait_until(lambda: rows() == ["Held: Face3"]), rows())
     click(part("AddWeight"))
-    check("the weight is one click", rows()[1:] == ["Weight"], rows())
+    check("the weight is one click", wait_until(lambda: rows()[1:] == ["Weight"]), rows())
     click(part("AddForce"))
+    wait_until(part("AddForce").isChecked)
     click_in_view(top, lambda: len(rows()) == 3)
     direction = part("LoadDirection", QtGui.QComboBox)
     for name, row in (("into the face", "into the face"), ("+X", "+X")):
         direction.setCurrentIndex(direction.findData(name))
-        settle()
-        check(f"a force goes {name}", rows()[2] == f"Force 100 N, {row}: Face6", rows())
+        wanted = f"Force 100 N, {row}: Face6"
+        goes = wait_until(lambda wanted=wanted: rows()[2:] == [wanted])
+        check(f"a force goes {name}", goes, rows())
     picture("loads_5_cases")
     click(part("RemoveLoad"))
-    check("what is chosen is removed", len(rows()) == 2, rows())
+    check("what is chosen is removed", wait_until(lambda: len(rows()) == 2), rows())
     check("both are ticked", [cases.item(k).checkState() for k in range(2)]
           == [QtCore.Qt.Checked] * 2)  # fmt: skip
     answer_panel("Cancel")
-    check("the panel closes", wait_until(lambda: sizing_panel() is None, 10))
+    check("the panel closes", wait_until(lambda: sizing_panel() is None))
     settle()
-    check("Cancel takes the cases away", [one.Name for one in doc.Objects] == before)
+    gone = wait_until(lambda: [one.Name for one in doc.Objects] == before)
+    check("Cancel takes the cases away", gone, [one.Name for one in doc.Objects])
     check("without a step", doc.UndoCount == steps)
-    check("and shows the infill", obj.Visibility and not obj.Base.Visibility)
+    shown = wait_until(lambda: obj.Visibility and not obj.Base.Visibility)
+    check("and shows the infill", shown)
 
 
 def without_an_analysis(doc, obj):

@@ -177,6 +177,7 @@ def size(
     symmetry: str | None = None,
     as_printed: str | None = None,
     scatter: float = 0.0,
+    solid_places: bool = True,
     unit: str | None = None,
     progress: ProgressCallback | bool | None = None,
     cache: StageCache | None = None,
@@ -202,6 +203,8 @@ def size(
             None takes struts as drawn. The print goes up along the parameter `build_direction`.
         scatter: stress and buckling are those of struts thinner by so many standard deviations of
             that table.
+        solid_places: where limits ask for more than the thickest skin that may be, the part becomes
+            solid.
         unit: as of `fill`.
         progress: as of `fill`.
         cache: as of `fill`.
@@ -250,7 +253,7 @@ def size(
         wanted = dataclasses.replace(wanted, density=loads.material.density)
         goal = goal_of(
             loads.material, asked, remove_thin=remove_thin, radius_list=radius_list,
-            symmetry=symmetry,
+            symmetry=symmetry, solid_places=solid_places,
             printing=_printing(as_printed, scatter, given.get("build_direction")),
         )  # fmt: skip
         if prove == "file":

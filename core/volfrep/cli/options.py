@@ -159,6 +159,7 @@ class SizeOptions(LatticeOptions):
         loads: file of load cases.
         goal: what is wanted, by its names in `jobs.sizing.GOALS`.
         remove_thin: take away the thinnest struts, and size again.
+        solid: the part becomes solid where no skin is enough.
         radius_list: the radii that may be, mm; empty for any.
         symmetry: planes of symmetry; None for none.
         printing: how struts come out; None where they are taken as drawn.
@@ -184,6 +185,7 @@ class SizeOptions(LatticeOptions):
     loads: str
     goal: Mapping[str, float | None]
     remove_thin: bool
+    solid: bool
     radius_list: tuple[float, ...]
     symmetry: str | None
     printing: Printing | None
@@ -277,6 +279,7 @@ def size_options(given: argparse.Namespace) -> SizeOptions:
         spec=found.spec, output=given.output, quiet=given.quiet, kept=None,
         part=given.part, unit=given.unit, form=form, loads=given.loads,
         goal={name: getattr(given, name) for name in GOALS}, remove_thin=given.remove_thin,
+        solid=not given.no_solid,
         radius_list=given.radius_list, symmetry=given.symmetry,
         printing=_printing(given, found),
         steps=given.steps, prove=not given.no_proof,

@@ -470,6 +470,11 @@ RUN_OPTIONS = (
         "MM", GOAL_GROUP, float,
     ),
     RunOption(
+        "no-solid", ("size",),
+        "keep the skin within its largest thickness where limits ask for more; without it the "
+        "part becomes solid there", group=GOAL_GROUP,
+    ),
+    RunOption(
         "sized-mass", ("size",), "of struts and skin that are sized, for the most stiffness",
         "G", GOAL_GROUP, float,
     ),

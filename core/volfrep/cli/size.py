@@ -74,6 +74,7 @@ def _size(given: argparse.Namespace) -> int | None:
         loads.material, options.goal, lambda name: f"--{name.replace('_', '-')}",
         remove_thin=options.remove_thin, radius_list=options.radius_list,
         symmetry=options.symmetry, printing=options.printing,
+        solid_places=options.solid,
     )  # fmt: skip
     if options.prove_file:
         check_file_proof(goal)

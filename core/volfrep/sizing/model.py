@@ -259,6 +259,7 @@ def with_sized_skin(
     bounds: tuple[float, float],
     patch: float,
     mirrors: Mirrors | None = None,
+    given: Callable[[Floats], Floats] | None = None,
 ) -> tuple[SizingModel, Floats]:
     """A structure whose skin is varied, too.
 
@@ -268,6 +269,7 @@ def with_sized_skin(
         bounds: the least thickness and the largest, mm.
         patch: how far apart the thickness is chosen, mm; inf for one everywhere.
         mirrors: planes under which the thickness is its own image; None for none.
+        given: mm, at (n, 3) points, thickness that is not varied; 0 where it is. None for nowhere.
 
     Returns:
         The structure, and (p,) the roots of the thicknesses to begin with.
@@ -285,6 +287,9 @@ def with_sized_skin(
         shares = csr_matrix(np.ones((len(places), 1)))
     varied = SkinThickness(skin, model.frame_nodes, len(problem.low), points, shares)
     least, most = (np.full(len(points), np.sqrt(bound)) for bound in bounds)
+    if given is not None:
+        own = np.sqrt(given(points))
+        least, most = np.where(own > 0.0, own, least), np.where(own > 0.0, own, most)
     first = np.clip(np.sqrt(wanted(points)), least, most)
     whole = np.concatenate([problem.low, first])
     structure = problem.structure

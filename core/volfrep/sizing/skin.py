@@ -26,6 +26,7 @@ from ..design.openings import lie_on
 from ..fem.wedge_mesh import barycentric, corner_angles, vertex_planes
 from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.medial_balls import wall_thickness
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
 from ..util.progress import Monitor
@@ -222,6 +223,11 @@ def skin_model(
     )
     far = max(float(wanted.max()), thickest or 0.0)
     room = _room(outside, triangles, normal, doubled, _SOLID * far)
+    bulky = wanted > edge
+    if bulky.any():
+        room = np.where(
+            bulky, np.minimum(room, _share_of_body(solid, outside, bulky, doubled)), room
+        )
     # Each side has its half of what is solid.
     local = np.minimum(wanted, 0.5 * room)
     kept = triangles[used]
@@ -325,6 +331,25 @@ def _room(
     about = np.asarray(near @ (result * known)).ravel() / np.maximum(number, 1.0)
     rim = (result >= far) & (number > 0.0)
     return np.maximum(np.where(rim, about, result), 0.02 * far)
+
+
+def _share_of_body(
+    solid: TriangleMesh, outside: TriangleMesh, bulky: Bools, weight: Floats
+) -> Floats:
+    """(n,) twice how deep what lies nearest to each vertex reaches, mm; inf where not asked for.
+
+    A body that is filled has sides all about: each has what lies nearest to it, so that they have
+    the body's volume together.
+    """
+    result = np.full(len(bulky), np.inf)
+    asked = bulky[outside.triangles].any(axis=1)
+    corners = outside.triangles[asked]
+    deep = wall_thickness(solid, outside.vertices[corners].mean(axis=1))
+    share = np.repeat(weight[asked], 3)
+    total = np.bincount(corners.ravel(), share * np.repeat(deep, 3), len(bulky))
+    number = np.bincount(corners.ravel(), share, len(bulky))
+    result[bulky] = (total / np.maximum(number, 1e-300))[bulky]
+    return result
 
 
 def _inwards(

@@ -9,15 +9,17 @@ import pytest
 import samples
 from volfrep import LatticeSpec
 from volfrep.jobs.infill import Infill
-from volfrep.jobs.sizing import Goal
+from volfrep.jobs.sizing import Goal, size
 from volfrep.jobs.sizing.part_model import part_model
-from volfrep.jobs.sizing.skin_search import solid_places
+from volfrep.jobs.sizing.solid_places import solid_places
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Moment, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.sizing.analysis import Limits, analyse
 from volfrep.sizing.model import with_sized_skin
 from volfrep.sizing.optimise import lightest, uniform
+from volfrep.sizing.skin import skin_model
+from volfrep.sizing.tapered_beams import Elastic
 from volfrep.util.cache import StageCache
 from volfrep.util.progress import Monitor
 
@@ -175,10 +177,47 @@ def test_where_a_skin_meets_itself_the_part_is_solid_and_that_is_told():
     spec = LatticeSpec("CVC", cell_size=6.0, strut_radius=0.3, shell=shell)
     infill = Infill(wedge, spec, monitor=Monitor(), cache=StageCache())
     model = part_model(infill, LoadCases(TITANIUM, (case,)), Goal(thinnest=0.2), StageCache())
-    heaviest, *rest = solid_places(model, 4.0)
+    heaviest, *rest = solid_places(model, wedge, infill.domain.mesh, 4.0)
     # From where it is two skins thick, 4 mm, to its end of 2.4 mm.
     from_there = (thick - 2.0 * shell) / (thick - 2.4) * length
     assert heaviest["box_mm"][1][0] == pytest.approx(length, abs=0.1)
     assert heaviest["box_mm"][0][0] == pytest.approx(from_there, abs=6.0)
     assert sum(place["mass_g"] for place in rest) < 0.3 * heaviest["mass_g"]
     assert heaviest["mass_g"] == pytest.approx(4e-3 * width * (length - from_there) * 3.2, rel=0.4)
+
+
+def test_the_sides_of_a_body_that_is_filled_have_its_volume_together():
+    solid = samples.box((24.0, 12.0, 12.0))
+    skin = skin_model(solid, 7.2, 3.0, Elastic(110e3, 0.34))
+    volume = skin.shells.area @ skin.shells.thickness
+    assert volume == pytest.approx(solid.volume, rel=0.1)
+
+
+@pytest.mark.slow
+def test_where_the_thickest_skin_is_not_enough_the_part_becomes_solid():
+    """A cantilever whose hollow section bears what it carries beyond some 15 mm only."""
+    (length, side), force = (60.0, 12.0), 1000.0
+    solid = samples.box((length, side, side))
+    case = LoadCase(
+        "end", (Support(on_plane(0, 0.0)),), (Force(on_plane(0, length), (0, 0, -force)),)
+    )
+    loads = LoadCases(TITANIUM, (case,))
+    spec = LatticeSpec("CVC", cell_size=12.0, strut_radius=0.5, shell=0.6)
+    goal = Goal(
+        Limits(stress=400.0), thinnest=0.4, skin_thinnest=0.4, skin_thickest=0.8, skin_patch=6.0
+    )
+    made = size(solid, spec, loads, goal, most_steps=10, prove_it=False)
+    (place,) = made.report["skin"]["solid"]
+    assert place["filled"]
+    (_, _, _), (end, _, _) = place["box_mm"]
+    assert 10.0 < end < 40.0
+    assert 10.0 * side**2 < place["volume_mm3"] < end * side**2
+    told = "is solid where a skin of 0.8 mm is not enough"
+    assert any(told in note for note in made.report["notes"])
+    inner = Infill(solid, made.spec, monitor=Monitor(), cache=StageCache()).domain.mesh
+    assert inner.vertices[:, 0].min() > 8.0
+    hollow = size(
+        solid, spec, loads, replace(goal, solid_places=False), most_steps=10, prove_it=False
+    )
+    assert not hollow.sized.holds
+    assert not any(place["filled"] for place in hollow.report["skin"]["solid"])

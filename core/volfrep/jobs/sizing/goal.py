@@ -45,6 +45,7 @@ class Goal:
         radius_list: mm, the radii that nodes may have; empty for any.
         mirrors: planes of symmetry; None for none.
         printing: how struts come out, which all figures are then of; None as they are drawn.
+        solid_places: where limits ask for more than the thickest skin, the part becomes solid.
     """
 
     limits: Limits = field(default_factory=Limits)
@@ -60,6 +61,7 @@ class Goal:
     radius_list: tuple[float, ...] = ()
     mirrors: Mirrors | None = None
     printing: Printing | None = None
+    solid_places: bool = True
 
 
 def goal_of(
@@ -71,6 +73,7 @@ def goal_of(
     radius_list: Sequence[float] = (),
     symmetry: str | None = None,
     printing: Printing | None = None,
+    solid_places: bool = True,
 ) -> Goal:
     """The goal that a user has written down.
 
@@ -83,6 +86,7 @@ def goal_of(
         radius_list: the radii that may be, mm; empty for any between bounds.
         symmetry: planes as a text, such as "x=0, z=2.5"; None for none.
         printing: see `Goal`.
+        solid_places: see `Goal`.
 
     Raises:
         VolfrepError: there is no goal of a name, two say the same, or a number makes no sense.
@@ -136,6 +140,7 @@ def goal_of(
         radius_list=_list_of(radius_list, given, named),
         mirrors=None if symmetry is None else _mirrors_of(symmetry, named("symmetry")),
         printing=printing,
+        solid_places=solid_places,
     )  # fmt: skip
 
 

@@ -48,7 +48,8 @@ from .notes import (
 from .part_model import given_radii, part_model
 from .printed import printed_note, told_printed
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, without_thin_struts
-from .skin_search import SkinDesign, design_skin, skin_peaks, solid_places, thickness_there
+from .skin_search import SkinDesign, design_skin, skin_peaks, thickness_there
+from .solid_places import solid_places, told_filled
 
 #: So many times a design is made thicker because of what CalculiX finds.
 CORRECTIONS = 3
@@ -452,8 +453,12 @@ def _record(
             **thickness_there(search.model, task.infill.domain.mesh),
             "chosen_at": len(task.skin.sized.analysis.radii) - len(task.skin.radii),
             "even": task.skin.even,
-            "solid": solid_places(search.model, task.loads.material.density),
-        }
+            "solid": solid_places(
+                search.model, task.infill.solid, task.infill.domain.mesh,
+                task.loads.material.density, task.skin.solid,
+            ),
+        }  # fmt: skip
+        report["notes"] += told_filled(report["skin"]["solid"], task.skin.thickest)
     return SizedPart(graded, points, radii, search.model, search.sized, before, search.even, report)
 
 

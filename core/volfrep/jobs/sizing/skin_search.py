@@ -19,7 +19,6 @@ from scipy.spatial import cKDTree
 from ...design.scattered_field import PointField
 from ...design.spec import LatticeSpec
 from ...loads.load_cases import LoadCases
-from ...mesh.topology import pieces_of
 from ...mesh.triangle_mesh import TriangleMesh
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel, with_sized_skin
@@ -36,13 +35,14 @@ from ...util.types import Floats
 from ..infill import Infill
 from .goal import Goal
 from .part_model import given_radii, part_model, thickness_of_skin
+from .solid_places import NOWHERE, SolidPlaces, more_solid
 
 #: Thicknesses are stored in steps of this, mm, as files keep them.
 STEP = 1e-6
 #: Searches, each with the skin that the one before has found.
 _SEARCHES = 2
-#: A part is solid where its skin has this part of what there is room for, or more: half of it.
-_MEETS = 0.4975
+#: So many in all, where a part becomes solid in more places.
+_MOST_SEARCHES = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +58,7 @@ class SkinDesign:
         even: one radius and one thickness that hold the same limits, their volume in mm3 and
             whether they do hold them; None without limits.
         limit: of stress, MPa, that the skin was held to; None for none.
+        solid: where the part became solid, as its skin would have been thicker than it may be.
     """
 
     spec: LatticeSpec
@@ -67,6 +68,8 @@ class SkinDesign:
     steps: tuple[Step, ...]
     even: dict[str, Any] | None
     limit: float | None
+    solid: SolidPlaces = NOWHERE
+    thickest: float = np.inf
 
     def radii_at(self, nodes: Floats) -> Floats:
         """(k,) mm, of the nearest node at (k, 3)."""
@@ -109,19 +112,19 @@ def design_skin(
     if limits.stress is not None:
         limits = replace(limits, skin_stress=margin * limits.stress)
     steps: tuple[Step, ...] = ()
-    searches = _SEARCHES
+    number, searches, solids = 0, _SEARCHES, NOWHERE
     if design is not None:
-        spec, steps, searches = design.spec, design.steps, 1
-    for number in range(searches):
+        spec, steps, searches, solids = design.spec, design.steps, 1, design.solid
+    while number < searches:
         infill = Infill(solid, spec, monitor=monitor, cache=cache)
-        model = part_model(infill, loads, goal, cache, thickest=high)
+        model = part_model(infill, loads, goal, cache, thickest=max(high, solids.deepest))
         radii = given_radii(model.wireframe)
         if design is not None:
             radii = design.radii_at(model.wireframe.nodes)
         thickness = thickness_of_skin(solid, spec)
         varied, roots = with_sized_skin(
             model, thickness if callable(thickness) else _constant(thickness), (low, high), patch,
-            goal.mirrors,
+            goal.mirrors, solids.depth,
         )  # fmt: skip
         problem = varied.problem
         first = np.clip(np.concatenate([radii, roots]), problem.low, problem.high)
@@ -131,17 +134,24 @@ def design_skin(
 
         sized = _searched(problem, limits, goal, first, most_steps, told)
         steps += sized.steps
-        spec = replace(spec, shell=low, skin_field=_field(problem, sized, goal.mirrors))
         count = len(model.wireframe.nodes)
+        more = solids
+        if goal.solid_places and goal.limits.any and np.isfinite(patch):
+            more = more_solid(problem, limits, sized.analysis.radii, solid, solids, high)
+        field = _field(problem, sized, goal.mirrors, more)
+        spec = replace(spec, shell=low, skin_field=field)
+        if more is not solids:
+            searches = min(max(searches, number + 2), _MOST_SEARCHES)
         even = None
         if number == searches - 1 and goal.limits.any:
             even = _even(problem, limits)
         final = sized.analysis.radii[:count]
         design = SkinDesign(
-            spec, model.wireframe.nodes, final, sized, steps, even, limits.skin_stress
+            spec, model.wireframe.nodes, final, sized, steps, even, limits.skin_stress, more, high
         )
         if sized.stopped == "cancelled":
             break
+        number, solids = number + 1, more
     assert design is not None
     return design
 
@@ -188,11 +198,15 @@ def _searched(
     return stiffest(problem, volume, first, weights=weights, most_steps=most_steps, watch=watch)
 
 
-def _field(problem: Problem, sized: Sized, mirrors: Mirrors | None) -> PointField:
+def _field(
+    problem: Problem, sized: Sized, mirrors: Mirrors | None, solids: SolidPlaces
+) -> PointField:
     """The thickness of a design at the skin's inner side, where its wall is to be."""
     skin = problem.skin
     assert skin is not None
     model, chosen = skin.skin, skin.wanted(sized.analysis.radii)
+    filled = solids.depth(skin.points)
+    chosen = np.where(filled > 0.0, filled, chosen)
     rows = np.unique(model.shells.triangles)
     outside = model.outside.vertices[rows]
     wanted = np.full(len(rows), chosen[0])
@@ -264,44 +278,6 @@ def thickness_there(model: SizingModel, domain: TriangleMesh) -> dict[str, Any]:
         "there_over_asked": {"5%": low, "50%": middle, "95%": high},
         "solid_share": skin.solid_share,
     }
-
-
-def solid_places(model: SizingModel, density: float) -> list[dict[str, Any]]:
-    """Where the skin's two sides meet, so that the part is solid: the heaviest place first.
-
-    Args:
-        model: of the part as it is.
-        density: g/cm3.
-
-    Returns:
-        Of each place its mass in g, its middle, and the box that it lies in, mm.
-    """
-    skin = model.skin
-    assert skin is not None
-    shells = skin.shells
-    full = shells.thickness >= _MEETS * skin.room[shells.triangles].mean(axis=1)
-    own, area = shells.triangles[full], shells.area[full]
-    mass = area * shells.thickness[full] * density / 1000.0
-    if not len(own):
-        return []
-    # A wall's two sides are one place: each vertex hangs together with those beyond it.
-    beyond = skin.joined.beyond
-    one = np.concatenate([own[:, 0], own[:, 1], np.repeat(skin.joined.vertices, 3)])
-    two = np.concatenate([own[:, 1], own[:, 2], beyond.ravel()])
-    place = pieces_of(one, two, len(skin.middle))[1][own[:, 0]]
-    middles = skin.middle[own].mean(axis=1)
-    found = []
-    for number in np.unique(place):
-        rows = place == number
-        there = skin.outside.vertices[own[rows]].reshape(-1, 3)
-        found.append(
-            {
-                "mass_g": float(mass[rows].sum()),
-                "middle_mm": np.average(middles[rows], axis=0, weights=mass[rows]).tolist(),
-                "box_mm": [there.min(axis=0).tolist(), there.max(axis=0).tolist()],
-            }
-        )
-    return sorted(found, key=lambda place: -place["mass_g"])
 
 
 def write_thickness(spec: LatticeSpec, path: str | os.PathLike[str]) -> None:

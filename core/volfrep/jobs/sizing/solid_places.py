@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where a part is solid: because its skin's two sides meet, or because a skin is not enough there.
+
+A skin that needs to be thicker than it may be becomes as thick as the part: half of its wall on
+either side. So what is solid is a place of the same field of thicknesses, in the model, the part
+and the file.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ...mesh.topology import pieces_of
+from ...mesh.triangle_mesh import TriangleMesh
+from ...sizing.analysis import Limits, Problem, analyse
+from ...sizing.model import SizingModel
+from ...sizing.optimise import next_radii
+from ...spatial.even_points import even_points
+from ...spatial.medial_balls import wall_thickness
+from ...spatial.proximity import closest_points
+from ...spatial.rays import inside_points
+from ...util.progress import Monitor
+from ...util.types import Floats
+
+#: A part is solid where its skin has this part of what there is room for, or more: half of it.
+_MEETS = 0.4975
+#: A skin of this part of the wall leaves nothing between its sides.
+_FILLS = 0.6
+#: A value is the largest that is allowed within this factor.
+_AT_MOST = 0.999
+#: A place fills shells in which it has more than this share.
+_SAY = 0.1
+#: The volume of a place is measured by so many points (a power of 2).
+_POINTS = 12
+
+
+@dataclass(frozen=True, eq=False)
+class SolidPlaces:
+    """Which places of the skin's surface are solid.
+
+    Attributes:
+        points: (p, 3) mm, places at which the skin's thickness was chosen.
+        thickness: (p,) mm, what fills the part below them; 0 where it has a skin.
+    """
+
+    points: Floats
+    thickness: Floats
+
+    @property
+    def deepest(self) -> float:
+        """The largest thickness, mm; 0 where nothing is solid."""
+        return float(self.thickness.max(initial=0.0))
+
+    def depth(self, places: Floats) -> Floats:
+        """(n,) mm, what fills the part below the nearest of its points; 0 where it has a skin."""
+        if not self.thickness.any():
+            return np.zeros(len(places))
+        return np.asarray(self.thickness[cKDTree(self.points).query(places)[1]])
+
+
+NOWHERE = SolidPlaces(np.empty((0, 3)), np.empty(0))
+
+
+def more_solid(
+    problem: Problem,
+    limits: Limits,
+    radii: Floats,
+    part: TriangleMesh,
+    before: SolidPlaces,
+    thickest: float,
+) -> SolidPlaces:
+    """What is solid, with those places where a design wants more than the thickest skin.
+
+    Args:
+        problem: whose skin is varied.
+        limits: of the design.
+        radii: the design's variables.
+        part: whose walls are filled.
+        before: what was solid already.
+        thickest: mm, that the skin may be.
+
+    Returns:
+        `before` itself where there is nothing more.
+    """
+    skin = problem.skin
+    assert skin is not None
+    chosen = skin.wanted(radii)
+    full = (chosen >= _AT_MOST * thickest) & (before.depth(skin.points) == 0.0)
+    if not full.any():
+        return before
+    found, changes = analyse(problem, radii, limits, with_changes=True)
+    assert changes is not None
+    high = problem.high.copy()
+    high[skin.radii :] *= 2.0
+    more = skin.wanted(next_radii(replace(problem, high=high), found, changes, limits))
+    full &= more > chosen / _AT_MOST
+    if not full.any():
+        return before
+    # Near an edge a ball is small: what fills a place is the largest of those below it.
+    middles = skin.skin.outside.vertices[skin.skin.shells.triangles].mean(axis=1)
+    entries = skin.shares.tocoo()
+    shells = entries.row[entries.data > _SAY]
+    walls = np.zeros(len(skin.points))
+    np.maximum.at(walls, entries.col[entries.data > _SAY], wall_thickness(part, middles)[shells])
+    return SolidPlaces(skin.points, np.where(full, _FILLS * walls, before.depth(skin.points)))
+
+
+def solid_places(
+    model: SizingModel,
+    part: TriangleMesh,
+    domain: TriangleMesh,
+    density: float,
+    filled: SolidPlaces = NOWHERE,
+) -> list[dict[str, Any]]:
+    """Where the skin's two sides meet, so that the part is solid: the heaviest place first.
+
+    Args:
+        model: of the part as it is.
+        part: the solid, mm.
+        domain: what lies within its skin.
+        density: g/cm3.
+        filled: where it is solid because no skin was enough.
+
+    Returns:
+        Of each place its volume in mm3 and mass in g, its middle, the box that it lies in, mm, and
+        whether it was filled.
+    """
+    skin = model.skin
+    assert skin is not None
+    shells = skin.shells
+    was_filled = filled.depth(skin.middle[shells.triangles].mean(axis=1)) > 0.0
+    full = was_filled | (shells.thickness >= _MEETS * skin.room[shells.triangles].mean(axis=1))
+    own = shells.triangles[full]
+    if not len(own):
+        return []
+    # A wall's two sides are one place: each vertex hangs together with those beyond it.
+    beyond = skin.joined.beyond
+    one = np.concatenate([own[:, 0], own[:, 1], np.repeat(skin.joined.vertices, 3)])
+    two = np.concatenate([own[:, 1], own[:, 2], beyond.ravel()])
+    place = pieces_of(one, two, len(skin.middle))[1][own[:, 0]]
+    of_shell = np.full(len(full), -1, np.int64)
+    of_shell[full] = place
+    was_filled = was_filled[full]
+    surface = TriangleMesh(skin.outside.vertices, shells.triangles.astype(np.int32))
+    unit, found = even_points(3, _POINTS), []
+    for number in np.unique(place):
+        there = skin.outside.vertices[own[place == number]].reshape(-1, 3)
+        low, high = there.min(axis=0), there.max(axis=0)
+        points = low + unit * (high - low)
+        points = points[inside_points(part, points, Monitor())]
+        points = points[~inside_points(domain, points, Monitor())]
+        if len(points):
+            points = points[of_shell[closest_points(surface, points)[2]] == number]
+        if not len(points):
+            continue  # nothing that could be measured
+        volume = float(np.prod(high - low)) * len(points) / len(unit)
+        found.append(
+            {
+                "volume_mm3": volume,
+                "mass_g": volume * density / 1000.0,
+                "middle_mm": points.mean(axis=0).tolist(),
+                "box_mm": [low.tolist(), high.tolist()],
+                "filled": bool(was_filled[place == number].any()),
+            }
+        )
+    return sorted(found, key=lambda place: -place["mass_g"])
+
+
+def told_filled(places: list[dict[str, Any]], thickest: float) -> list[str]:
+    """A sentence on what was filled, of `solid_places`; none where nothing was."""
+    filled = [place for place in places if place["filled"]]
+    if not filled:
+        return []
+    x, y, z = filled[0]["middle_mm"]
+    volume, mass = (sum(place[what] for place in filled) for what in ("volume_mm3", "mass_g"))
+    return [
+        f"The part is solid where a skin of {thickest:.4g} mm is not enough: {volume:,.0f} mm3 "
+        f"({mass:.4g} g) in {len(filled)} places, the largest about ({x:.4g}, {y:.4g}, {z:.4g}). "
+        "Its inside is not modelled as a solid: solve the finished file (--prove file)."
+    ]

@@ -14,7 +14,7 @@ from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.infill.freshness import tell_stale
 from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
 from freecad_volfrep.translation import translate
-from volfrep.output.form import FORMS
+from volfrep.output.form import FORMS, unknown
 from volfrep.util.errors import VolfrepError
 
 from .input_files import refuse_inputs
@@ -90,6 +90,9 @@ def chosen_format(path: str, chosen: Format, formats: list[Format]) -> tuple[str
 
     An extension that was typed says more than the kind that the dialog stood at; but the one that
     it proposes, STL's, is there in any case.
+
+    Raises:
+        VolfrepError: there is no such extension; naming those of all formats.
     """
     suffix = Path(path).suffix.lower()
     typed = [form for form in formats if form.suffix == suffix]
@@ -97,7 +100,8 @@ def chosen_format(path: str, chosen: Format, formats: list[Format]) -> tuple[str
         return path, typed[0]
     if not suffix or typed:
         return str(Path(path).with_suffix(chosen.suffix)), chosen
-    return path, chosen  # an extension that there is not: whoever writes says so
+    known = tuple(dict.fromkeys(form.suffix for form in formats))
+    raise VolfrepError(f"Cannot write '{path}': {unknown(path, known)}")
 
 
 def estimate_export(obj: App.DocumentObject, form: Format) -> str:

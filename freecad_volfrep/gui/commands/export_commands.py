@@ -47,7 +47,11 @@ def export(obj: App.DocumentObject) -> None:
     )
     if not path:
         return
-    path, form = chosen_format(path, formats[chosen], list(formats.values()))
+    form = None
+    with errors_shown(box=True):
+        path, form = chosen_format(path, formats[chosen], list(formats.values()))
+    if form is None:
+        return
     if form.content == "layers":
         _export_layers(obj, path, form.suffix[1:])
         return

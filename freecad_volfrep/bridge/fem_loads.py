@@ -255,7 +255,7 @@ def _one_material(analyses: Sequence[App.DocumentObject]) -> SolidMaterial:
     ]
     if not found:
         raise VolfrepError(
-            "Neither the infill nor its load cases have a material: choose its PrintMaterial."
+            "Neither the infill nor its load cases have a material: choose one for the infill."
         )
     other = [m for m in found if replace(m, name=found[0].name, source=found[0].source) != found[0]]
     if other:

@@ -89,7 +89,7 @@ def test_the_lattice_has_the_stiffness_along_a_direction_of_its_material(doc, bo
     doc.recompute()
     assert obj.StrutRadius.Value > 1.05 * along
     obj.PrintMaterial = "None"
-    with pytest.raises(VolfrepError, match="choose a PrintMaterial"):
+    with pytest.raises(VolfrepError, match="that of a material: choose one for the infill"):
         specification_of(obj)
 
 

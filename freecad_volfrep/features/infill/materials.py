@@ -87,7 +87,7 @@ def _of_solid(base: App.DocumentObject | None) -> SolidMaterial:
     if not cards:
         called = "The solid" if base is None else f"'{base.Label}'"
         raise VolfrepError(
-            f"{called} has no material in FreeCAD: give it one, or choose another PrintMaterial."
+            f"{called} has no material in FreeCAD: give it one, or choose another for the infill."
         )
     name, card = cards[0]
     values: dict[str, float] = {}
@@ -100,7 +100,7 @@ def _of_solid(base: App.DocumentObject | None) -> SolidMaterial:
                 continue
             raise VolfrepError(
                 f"The material '{name}' of '{base.Label}' has no {entry} that can be read: "
-                "complete it, or choose another PrintMaterial."
+                "complete it, or choose another for the infill."
             ) from error
     plain = re.sub(r"[^-A-Za-z0-9_]", "_", name).lstrip("-_")[:70]
     return SolidMaterial(plain or "Material", source=f"the document's {name}", **values)

@@ -127,7 +127,8 @@ def _target(values: dict[str, Any], material: SolidMaterial | None) -> Target | 
     if driver == "stiffness":
         if material is None:
             raise VolfrepError(
-                "A stiffness that drives the radius is that of a material: choose a PrintMaterial."
+                "A stiffness that drives the radius is that of a material: "
+                "choose one for the infill."
             )
         value, young = (value, values["stiffness_direction"]), material.young
     return read_target({driver.replace(" ", "_"): value}, young)

@@ -317,7 +317,15 @@ def drive_the_radius(doc, obj):
     figures = told()
     check("the figures are the target's", "relative density 30 %" in figures, figures)
     picture("panel_6_density")
+    choose("RadiusDrivenBy", "Stiffness")
+    check("a stiffness without a material says what to do", "choose one for the infill" in told(),
+          told())  # fmt: skip
     choose("PrintMaterial", "AlSi10Mg")
+    begins = panel_part("TargetStiffness").value()
+    check("and begins with what there is once it has one", begins > 100, begins)
+    check("at the radius that there was", abs(shown.property("rawValue") / found - 1) < 0.02,
+          (shown.property("rawValue"), found))  # fmt: skip
+    picture("panel_6_material")
     choose("PrintProcess", "LPBF")
     check("a material and a process", (obj.PrintMaterial, obj.PrintProcess) == ("AlSi10Mg", "LPBF"))
     choose("RadiusDrivenBy", "Mass")

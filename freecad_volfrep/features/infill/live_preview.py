@@ -141,13 +141,13 @@ class LivePreview:
             shown,
             forecast_fill(solid, shown.spec),
             advice(self._obj, shown.spec.struts.extremes[0]),
-            _stiffness(self._obj, shown.spec),
+            stiffness_of(self._obj, shown.spec),
             is_of(self._obj.Fingerprint, self._obj, spec, mesh),
             is_of(self._obj.SizedFor, self._obj, spec, mesh),
         )
 
 
-def _stiffness(obj: App.DocumentObject, spec: LatticeSpec) -> float | None:
+def stiffness_of(obj: App.DocumentObject, spec: LatticeSpec) -> float | None:
     """Young's modulus along the chosen direction, MPa, where it is known at once."""
     from volfrep.jobs.stiffness_target import modulus
     from volfrep.mechanics.catalogue import known_cell

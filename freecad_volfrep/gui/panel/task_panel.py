@@ -13,8 +13,8 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.features.infill.expressions import follow_expressions
 from freecad_volfrep.features.infill.factory import SHEET
-from freecad_volfrep.features.infill.live_preview import TARGETS, LivePreview, Shown
-from freecad_volfrep.features.properties.quantities import is_driven, set_value
+from freecad_volfrep.features.infill.live_preview import TARGETS, LivePreview, Shown, stiffness_of
+from freecad_volfrep.features.properties.quantities import is_driven, number_of, set_value
 from freecad_volfrep.gui.jobs.updating import Update, begin_update, show_mesh
 from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
@@ -108,6 +108,7 @@ class TaskPanel:
         self._rows: dict[str, tuple[Any, Any]] = {}
         self._boxes: list[tuple[Section, Rows, tuple[str, ...]]] = []
         self._shown: Shown | None = None
+        self._seen: Shown | None = None  # the last that there was
         self._update: Update | None = None
         self._is_open = True
         self.form = self._build()
@@ -222,7 +223,7 @@ class TaskPanel:
             self._allow_ok(may_be)
             return
         self._allow_ok(True)
-        self._shown = shown
+        self._shown = self._seen = shown
         self._tell_radius(shown.preview.spec.strut_radius)
         if self._preview.isChecked():
             self._show_solid(False)
@@ -394,6 +395,8 @@ class TaskPanel:
         self._last = name
         if name == "RadiusDrivenBy":
             self._begin_target(self._obj.RadiusDrivenBy)
+        elif name == "PrintMaterial" and self._obj.RadiusDrivenBy == "Stiffness":
+            self._begin_stiffness()
         elif name in ("RadiusGrading", "RadiusProfile"):
             self._begin_grading()
         elif name in ("CellSize", "CellType"):
@@ -435,8 +438,19 @@ class TaskPanel:
         """Begin with what the lattice that is shown comes to: it stays as it is at first."""
         name = TARGETS.get(driver)
         value = None if name is None or self._shown is None else self._shown.figure(driver)
-        if value is None:
+        if value is not None:
+            self._begin_with(name, value)
+
+    def _begin_stiffness(self) -> None:
+        """Begin a stiffness that had no material with what the lattice shown last has of it."""
+        if self._seen is None or number_of(self._obj, "TargetStiffness"):
             return
+        with suppress(VolfrepError):  # of the material: the preview says it
+            value = stiffness_of(self._obj, self._seen.preview.spec)
+            if value is not None:
+                self._begin_with("TargetStiffness", value)
+
+    def _begin_with(self, name: str, value: float) -> None:
         set_value(self._obj, name, float(f"{value:.3g}"))
         self._fields.show(name, self._rows[name][1])
 

@@ -28,6 +28,7 @@ from driving import (
     run_checks,
     section_docks,
     seen,
+    select,
     settle,
     slow,
     toolbar_button,
@@ -474,6 +475,22 @@ def frames():
     App.closeDocument(doc.Name)
 
 
+def two_documents():
+    """A dock is seen beside its own document only, and is there again with it."""
+    first, _, obj = new_infill.filled("First")
+    select(obj)
+    click(toolbar_button("Section View"))
+    wait_until(section_docks)
+    second = App.newDocument("Second")
+    check("another document's view has none", wait_until(lambda: not section_docks()))
+    App.setActiveDocument(first.Name)
+    check("its own has it again", wait_until(lambda: len(section_docks()) == 1))
+    App.setActiveDocument(second.Name)
+    App.closeDocument(first.Name)
+    settle()
+    check("which goes with it", not section_docks())
+
+
 run_checks(
     "display",
     {
@@ -484,5 +501,6 @@ run_checks(
         beside: made,
         colours: graded,
         frames: None,
+        two_documents: None,
     },
 )

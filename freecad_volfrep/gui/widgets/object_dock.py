@@ -85,6 +85,10 @@ class ObjectDock(QtWidgets.QDockWidget):
         if obj == self._obj and name == "Label":
             self._entitle()
 
+    def slotActivateDocument(self, doc: App.Document) -> None:  # noqa: N802
+        """Called by FreeCAD: beside another document's view it would speak of that one."""
+        self.setVisible(doc == self._doc)
+
     def slotDeletedObject(self, obj: App.DocumentObject) -> None:  # noqa: N802
         """Called by FreeCAD: there is nothing to show any more."""
         if obj == self._obj:

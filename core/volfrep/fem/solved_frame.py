@@ -244,7 +244,8 @@ def _skin(skin: SolidSkin, model: BeamMesh, material: Material) -> Iterator[byte
         springs = number + np.arange(len(skin.springs))
         yield from element_block("SPRING2", f"S{axis}", springs, skin.springs)
         number += len(skin.springs)
-        yield f"*SPRING,ELSET=S{axis}\n{axis},{axis}\n{skin.stiffness:.10g}\n".encode()
+        # By its decimal point CalculiX tells a stiffness from degrees of freedom.
+        yield f"*SPRING,ELSET=S{axis}\n{axis},{axis}\n{skin.stiffness:.10e}\n".encode()
 
 
 def _masses(attached: Floats, first: int) -> Iterator[bytes]:

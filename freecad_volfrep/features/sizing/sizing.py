@@ -159,7 +159,7 @@ class Outcome:
                 ("work of the loads, N mm", *(float(a.compliance[k]) for _, a in columns)),
                 ("largest displacement, mm", *(float(a.largest[k]) for _, a in columns)),
                 ("largest stress, MPa", *(float(a.stress[..., k].max()) for _, a in columns)),
-                ("load before buckling, times", *(_margin(a.buckling[:, k]) for _, a in columns)),
+                ("buckling safety", *(_margin(a.buckling[:, k]) for _, a in columns)),
             ]
             if np.isfinite(sized.factors[k]):
                 together = (a.factors[k] for _, a in columns)
@@ -177,9 +177,9 @@ class Outcome:
                 ("displacements differ by, %", off),
             ]
             if proof["worst_strut_compared"]:
-                figures.append(("largest stress there over here", proof["largest_stress"]))
+                figures.append(("largest stress, CalculiX / VOLFREP", proof["largest_stress"]))
             if "lowest_frequency" in proof:
-                figures.append(("lowest frequency there over here", proof["lowest_frequency"]))
+                figures.append(("lowest frequency, CalculiX / VOLFREP", proof["lowest_frequency"]))
             known = [factor for factor in proof.get("buckling_factors", ()) if factor is not None]
             if known:
                 figures.append(("lowest load before they buckle together, times", min(known)))

@@ -3319,6 +3319,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Hüllquader</translation>
     </message>
     <message>
+      <source>buckling safety</source>
+      <translation>Knicksicherheit</translation>
+    </message>
+    <message>
       <source>buckling, % of its limit</source>
       <translation>Knicken, % der Grenze</translation>
     </message>
@@ -3423,8 +3427,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>größter Radius, mm</translation>
     </message>
     <message>
-      <source>largest stress there over here</source>
-      <translation>größte Spannung dort zu hier</translation>
+      <source>largest stress, CalculiX / VOLFREP</source>
+      <translation>größte Spannung, CalculiX / VOLFREP</translation>
     </message>
     <message>
       <source>largest stress, MPa</source>
@@ -3439,10 +3443,6 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>kleinste Festigkeit entlang x, y, z</translation>
     </message>
     <message>
-      <source>load before buckling, times</source>
-      <translation>Last bis zum Knicken, Vielfaches</translation>
-    </message>
-    <message>
       <source>load before struts buckle together, times</source>
       <translation>Last, bis Streben gemeinsam knicken, Vielfaches</translation>
     </message>
@@ -3451,8 +3451,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>entfernte lose Teile</translation>
     </message>
     <message>
-      <source>lowest frequency there over here</source>
-      <translation>niedrigste Frequenz dort zu hier</translation>
+      <source>lowest frequency, CalculiX / VOLFREP</source>
+      <translation>niedrigste Frequenz, CalculiX / VOLFREP</translation>
     </message>
     <message>
       <source>lowest load before they buckle together, times</source>

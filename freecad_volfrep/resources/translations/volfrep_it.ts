@@ -3319,6 +3319,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>ingombro</translation>
     </message>
     <message>
+      <source>buckling safety</source>
+      <translation>sicurezza (instabilità)</translation>
+    </message>
+    <message>
       <source>buckling, % of its limit</source>
       <translation>instabilità, % del limite</translation>
     </message>
@@ -3423,8 +3427,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>raggio massimo, mm</translation>
     </message>
     <message>
-      <source>largest stress there over here</source>
-      <translation>tensione massima là su qui</translation>
+      <source>largest stress, CalculiX / VOLFREP</source>
+      <translation>tensione massima, CalculiX / VOLFREP</translation>
     </message>
     <message>
       <source>largest stress, MPa</source>
@@ -3439,10 +3443,6 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>resistenza minima lungo x, y, z</translation>
     </message>
     <message>
-      <source>load before buckling, times</source>
-      <translation>carico prima dell'instabilità, volte</translation>
-    </message>
-    <message>
       <source>load before struts buckle together, times</source>
       <translation>carico prima dell'instabilità d'insieme, volte</translation>
     </message>
@@ -3451,8 +3451,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>pezzi isolati rimossi</translation>
     </message>
     <message>
-      <source>lowest frequency there over here</source>
-      <translation>frequenza minima là su qui</translation>
+      <source>lowest frequency, CalculiX / VOLFREP</source>
+      <translation>frequenza minima, CalculiX / VOLFREP</translation>
     </message>
     <message>
       <source>lowest load before they buckle together, times</source>

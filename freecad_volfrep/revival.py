@@ -63,29 +63,34 @@ def revive(doc: App.Document) -> list[App.DocumentObject]:
     for obj in [obj for kind in _TYPES for obj in doc.findObjects(kind)]:
         names = set(obj.PropertiesList)
         if names >= _INFILL:
-            from .features.infill.lattice_infill import LatticeInfill, revive_infill
+            from .features.infill.lattice_infill import LatticeInfill, say_revived
             from .features.infill.properties import has_lost_results
 
-            kind, bring_back = LatticeInfill, revive_infill
+            kind = LatticeInfill
             if has_lost_results(obj):
                 obj.touch()
         elif names >= _PRINT_CHECK:
-            from .features.reports.print_check import PrintCheck, revive_print_check
+            from .features.reports.print_check import PrintCheck
 
-            kind, bring_back = PrintCheck, revive_print_check
+            kind = PrintCheck
         elif names >= _SLICER_INFILL:
-            from .features.export.slicer_infill import SlicerInfill, revive_slicer_infill
+            from .features.export.slicer_infill import SlicerInfill
 
-            kind, bring_back = SlicerInfill, revive_slicer_infill
+            kind = SlicerInfill
         elif names >= _STUDY:
-            from .features.study.design_study import DesignStudy, revive_study
+            from .features.study.design_study import DesignStudy
 
-            kind, bring_back = DesignStudy, revive_study
+            kind = DesignStudy
         else:
             continue
         if isinstance(getattr(obj, "Proxy", None), kind):
             continue
-        bring_back(obj)
+        from .features.jobs.screen import revive_view
+
+        kind(obj)
+        if names >= _INFILL:
+            say_revived(obj)
+        revive_view(obj)
         obj.touch()
         App.Console.PrintWarning(
             f"VOLFREP, {obj.Label}: saved by a FreeCAD without VOLFREP, or damaged; it is alive "

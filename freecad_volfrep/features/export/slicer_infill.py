@@ -17,7 +17,7 @@ import numpy as np
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.jobs.job import State
 from freecad_volfrep.features.jobs.progress import job_title, run_job
-from freecad_volfrep.features.jobs.screen import attach_view, revive_view
+from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.saved_names import saved_module
@@ -203,12 +203,6 @@ class SlicerInfill:
 
 # Saved files find the class under this name.
 SlicerInfill.__module__ = saved_module("features")
-
-
-def revive_slicer_infill(obj: App.DocumentObject) -> None:
-    """Make a slicer infill of an object that has its properties, but has lost its proxy."""
-    SlicerInfill(obj)
-    revive_view(obj)
 
 
 def make_slicer_infill(

@@ -12,7 +12,7 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.jobs.job import Job, State
 from freecad_volfrep.features.jobs.progress import job_title, run_job
-from freecad_volfrep.features.jobs.screen import attach_view, is_asked_by_user, revive_view, screen
+from freecad_volfrep.features.jobs.screen import attach_view, is_asked_by_user, screen
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.preferences import largest_automatic, triangles_drawn
 from freecad_volfrep.saved_names import saved_module
@@ -366,12 +366,10 @@ class LatticeInfill:
 LatticeInfill.__module__ = saved_module("features")
 
 
-def revive_infill(obj: App.DocumentObject) -> None:
-    """Make a lattice infill of an object that has its properties, but has lost its proxy."""
-    LatticeInfill(obj)
+def say_revived(obj: App.DocumentObject) -> None:
+    """Say that an infill has its proxy again, or what of its values is spoiled."""
     obj.Status = REVIVED
     try:
         refuse_spoiled(obj)
     except VolfrepError as error:
         obj.Status = str(error)
-    revive_view(obj)

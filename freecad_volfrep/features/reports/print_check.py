@@ -12,7 +12,7 @@ from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
 from freecad_volfrep.features.infill.materials import process_of
 from freecad_volfrep.features.jobs.job import State
 from freecad_volfrep.features.jobs.progress import job_title, run_job
-from freecad_volfrep.features.jobs.screen import attach_view, revive_view
+from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.saved_names import saved_module
@@ -142,12 +142,6 @@ class PrintCheck:
 
 # Saved files find the class under this name.
 PrintCheck.__module__ = saved_module("features")
-
-
-def revive_print_check(obj: App.DocumentObject) -> None:
-    """Make a print check of an object that has its properties, but has lost its proxy."""
-    PrintCheck(obj)
-    revive_view(obj)
 
 
 def make_print_check(

@@ -20,7 +20,7 @@ from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
 from freecad_volfrep.features.infill.materials import material_of
 from freecad_volfrep.features.infill.values import plain_values, values_in_effect
 from freecad_volfrep.features.jobs.progress import job_title, run_job
-from freecad_volfrep.features.jobs.screen import attach_view, revive_view
+from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.saved_names import saved_module
@@ -104,12 +104,6 @@ class DesignStudy:
 
 # Saved files find the class under this name.
 DesignStudy.__module__ = saved_module("features")
-
-
-def revive_study(obj: App.DocumentObject) -> None:
-    """Make a design study of an object that has its properties, but has lost its proxy."""
-    DesignStudy(obj)
-    revive_view(obj)
 
 
 def make_design_study(

@@ -64,8 +64,8 @@ def pairs_at_planes(
     """(k, 2) pairs of triangles that may pierce each other, once vertices have moved a little.
 
     What is left out does not: their boxes are apart, or one lies in front of or behind the plane
-    of the other, or a plane across the way between them divides them, by more than the moves and
-    rounding can turn.
+    of the other, or a plane across the way between them or upright on an edge divides them, by more
+    than the moves and rounding can turn.
 
     Args:
         mesh: any mesh, mm.
@@ -122,7 +122,11 @@ class _Planes:
             meets = self.reached(a, b)
             a, b = b[meets], a[meets]
         meets = ~self.divided(a, b)
-        return np.stack([a[meets], b[meets]], axis=1)
+        a, b = a[meets], b[meets]
+        for _ in range(2):
+            meets = ~self.beside(a, b)
+            a, b = b[meets], a[meets]
+        return np.stack([a, b], axis=1)
 
     def reached(self, a: Ints, b: Ints) -> NDArray[np.bool_]:
         """(n,) whether triangles a may have corners on both sides of triangles b.
@@ -186,6 +190,30 @@ class _Planes:
         both = (ends[0] > unsure) & (ends[1] > unsure)
         result: NDArray[np.bool_] = np.where(meets, both, ends[0] + ends[1] > 2.0 * unsure)
         return result
+
+    def beside(self, a: Ints, b: Ints) -> NDArray[np.bool_]:
+        """(n,) whether b lies beyond an edge of a: beyond the plane upright on a through it.
+
+        Not where they share a corner.
+        """
+        ours, theirs = ([corner[rows] for corner in self._corner] for rows in (a, b))
+        shared = _among(ours[0], theirs) | _among(ours[1], theirs) | _among(ours[2], theirs)
+        origin = [column[a] for column in self._at[0]]
+        one, two = ([[column[rows] - o for column, o in zip(corner, origin, strict=True)]
+                     for corner in self._at] for rows in (a, b))  # fmt: skip
+        normal = [column[a] for column in self._normal]
+        # By how far a product with a vector of length 1 may be wrong, at any of the six corners.
+        far = [np.abs(x) + np.abs(y) + np.abs(z) for x, y, z in one + two]
+        unsure = self._far + ROUGHLY * np.maximum.reduce(far)
+        result = np.zeros(len(a), bool)
+        for k in range(3):
+            edge = [x - y for x, y in zip(one[(k + 1) % 3], one[k], strict=True)]
+            # Any vector will do, for both are measured along the same one.
+            way = cross_columns(edge, normal)
+            most = np.maximum.reduce([dot_columns(way, corner) for corner in one])
+            least = np.minimum.reduce([dot_columns(way, corner) for corner in two])
+            result |= least - most > 2.0 * unsure * np.sqrt(dot_columns(way, way))
+        return np.asarray(result & ~shared, np.bool_)
 
 
 def _among(corner: NDArray[np.int32], others: list[NDArray[np.int32]]) -> NDArray[np.bool_]:

@@ -133,6 +133,15 @@ def test_nothing_that_small_moves_bring_to_cross_is_left_out(seed):
         assert len(piercing_among(moved, every)) > 100
 
 
+def test_a_triangle_beyond_an_edge_of_a_long_one_needs_no_exact_look():
+    """Each has corners on both sides of the other's plane, and no plane across the way divides."""
+    long, small = [[0, 0, 0], [10, 0, 0], [0, 10, 0]], [[9, 1, -1], [9, 1, 1], [9.1, 1.1, 0]]
+    triangles = np.arange(6, dtype=np.int32).reshape(2, 3)
+    for aside, count in ((0.3, 0), (-0.3, 1)):
+        vertices = np.array(long + small) + np.outer([0, 0, 0, 1, 1, 1], [aside, aside, 0])
+        assert len(pairs_at_planes(TriangleMesh(vertices, triangles), 0.0)) == count
+
+
 def test_it_can_be_cancelled():
     with pytest.raises(Cancelled):
         piercing_pairs(samples.bracket(33.0), Monitor(lambda fraction, stage: False))

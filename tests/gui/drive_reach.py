@@ -286,7 +286,8 @@ def revive_what_was_saved_elsewhere(obj, windows):
     check("it is an infill again", infills(again) == [found])
     check("it says so", "without VOLFREP" in found.Status, found.Status)
     check("with its mesh", found.Mesh.CountFacets == facets)
-    check("with its icon", found.ViewObject.Proxy.getIcon().endswith("lattice_infill.svg"))
+    icon = found.ViewObject.Proxy.getIcon()
+    check("with the icon of one to be updated", icon.endswith("lattice_infill_stale.svg"), icon)
     modes = found.ViewObject.listDisplayModes()
     for mode in ("Coarse", "Simplified", "Shaded"):
         found.ViewObject.DisplayMode = mode

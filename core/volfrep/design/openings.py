@@ -236,7 +236,7 @@ def open_triangles(solid: TriangleMesh, faces: tuple[OpenFace, ...]) -> Bools:
         result |= found
     if result.all():
         raise VolfrepError(
-            "All faces of the part are left open: for no skin at all, reduce the shell thickness "
+            "All faces of the part are left open: for no skin at all, reduce the skin thickness "
             "to 0."
         )
     return result

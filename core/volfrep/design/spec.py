@@ -140,7 +140,7 @@ class LatticeSpec(SpecFields):
         object.__setattr__(self, "face_skins", tuple(s for s in skins if s.thickness > 0.0))
         object.__setattr__(self, "keep_solid", tuple(self.keep_solid))
         number("strut radius", self.strut_radius, "mm", positive=True)
-        number("shell thickness", self.shell, "mm", positive=False)
+        number("skin thickness", self.shell, "mm", positive=False)
         number("density", self.density, "g/cm3", positive=True)
         self.kind.refuse()
         _ = self.ending
@@ -157,7 +157,7 @@ class LatticeSpec(SpecFields):
         if self.shell == 0 and (of_skin or self.skin_field is not None):
             raise VolfrepError(
                 "Open faces, drain holes, faces with a skin of their own, and what is kept solid, "
-                "need a skin that they belong to: give a shell thickness above 0."
+                "need a skin that they belong to: give a skin thickness above 0."
             )
         if self.drains is not None and self.output == "lattice":
             raise VolfrepError("Drain holes go through the skin of a part: choose the output part.")

@@ -140,7 +140,7 @@ class Skin:
     field: Field | None = None
 
     def __post_init__(self) -> None:
-        number("shell thickness", self.thickness, "mm", positive=True)
+        number("skin thickness", self.thickness, "mm", positive=True)
         for name in ("open_faces", "face_skins", "keep_solid"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
 

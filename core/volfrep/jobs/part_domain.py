@@ -106,5 +106,5 @@ def _refuse_no_domain(domain: TriangleMesh, shell: float, skin: Skin | None) -> 
             )
         raise VolfrepError(
             f"The part is nowhere thicker than two walls of {shell:g} mm, so that nothing is left "
-            "to fill: reduce the shell thickness."
+            "to fill: reduce the skin thickness."
         )

@@ -57,7 +57,7 @@ def expect(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expectat
     if inside <= 0.0:
         raise VolfrepError(
             f"The part is nowhere thicker than two walls of {spec.shell:g} mm, so that nothing is "
-            "left to fill: reduce the shell thickness."
+            "left to fill: reduce the skin thickness."
         )
     found = lattice_kind(spec).expected(solid, depth)
     volume = inside if spec.output == "domain" else found.volume

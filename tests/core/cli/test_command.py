@@ -171,7 +171,7 @@ def test_resolution_or_deviation(capsys: pytest.CaptureFixture[str]) -> None:
         (["--cell-size", "nan"], "cell size must be a finite number"),
         (["--cell-size", "-1e1"], "cell size must be above 0 mm, not -10"),
         (["--strut-radius", "7"], "too thick for a cell"),
-        (["--shell", "-1"], "shell thickness must not be negative"),
+        (["--shell", "-1"], "skin thickness must not be negative"),
         (["--activation", "near"], "There is no 'near': choose touching, centre, inside"),
         (["--boundary", "cut"], "There is no 'cut': choose trim, whole"),
         (["--make", "skin"], "There is no 'skin': choose part, lattice, domain"),

@@ -224,7 +224,7 @@ def test_a_specification_gives_each_stage_its_part():
         (lambda: Grid(1.0, (0.0, 1.0)), "origin must be three"),
         (lambda: Struts(0.0), "strut radius must be above 0"),
         (lambda: Struts(1.0, fillet=-1.0), "fillet must not be negative"),
-        (lambda: Skin(0.0), "shell thickness must be above 0"),
+        (lambda: Skin(0.0), "skin thickness must be above 0"),
         (lambda: Boundary("all"), "no activation 'all'"),
         (lambda: Boundary(cut="bent"), "no boundary 'bent'"),
         (lambda: Resolution(20, 0.1), "not both"),

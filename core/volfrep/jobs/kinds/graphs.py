@@ -104,7 +104,7 @@ class GraphKind(LatticeKind):
         def volume(bare: float, domain: float, skin: float) -> tuple[LatticeSpec, float]:
             return spec, graph_volume(frame, spec, depth.points_below(spec.shell), domain)
 
-        none = "No strut of the network lies inside the skin: reduce the shell thickness."
+        none = "No strut of the network lies inside the skin: reduce the skin thickness."
         return show_struts(solid, spec, depth, frame, volume, none)
 
     def with_fixed_struts(self) -> LatticeSpec:

@@ -106,7 +106,7 @@ class StrutCellKind(LatticeKind):
 
         none = (
             f"No strut of cells of {spec.cell_size:g} mm lies inside the skin: reduce the cell "
-            "size or the shell thickness."
+            "size or the skin thickness."
         )
         return show_struts(solid, spec, depth, frame, volume, none, cells)
 

@@ -164,7 +164,7 @@ def _bounds(spec: LatticeSpec, goal: Goal) -> tuple[float, float, float]:
     """The least thickness, the largest, and how far apart it is chosen, mm."""
     assert goal.skin_thinnest is not None
     if not spec.with_skin:
-        raise VolfrepError("There is no skin to size: give a shell thickness, and the output part.")
+        raise VolfrepError("There is no skin to size: give a skin thickness, and the output part.")
     skin = spec.skin
     assert skin is not None
     if skin.face_skins or skin.keep_solid:

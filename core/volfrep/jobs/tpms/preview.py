@@ -112,7 +112,7 @@ def _surface(
     field = np.maximum(walls, -deep(points))
     field = np.pad(field.reshape(tuple(number)), 1, constant_values=pitch)
     if field.min() >= 0.0:
-        raise VolfrepError("No wall lies inside the skin: reduce the shell thickness.")
+        raise VolfrepError("No wall lies inside the skin: reduce the skin thickness.")
     found, rows, _, _ = marching_cubes(field.astype(np.float32), 0.0)  # type: ignore[no-untyped-call]
     return TriangleMesh(start + pitch * (found - 1.0), rows.astype(np.int32))
 

@@ -251,7 +251,7 @@ def _heat(model: ContinuumModel, loads: LoadCases) -> tuple[Floats | None, list[
     found = []
     for one in loads.heat:
         power = one.power if one.power is not None else next(gives)
-        mean = float(model.loaded.weights_of(one.region) @ warm)
+        mean = float(np.einsum("n,n->", model.loaded.weights_of(one.region), warm))
         found.append({"name": one.name, "temperature": mean, "power_w": power})
     return warm, found
 

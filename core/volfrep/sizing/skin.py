@@ -223,8 +223,11 @@ def skin_model(
     )
     far = max(float(wanted.max()), thickest or 0.0)
     room = _room(outside, triangles, normal, doubled, _SOLID * far)
-    bulky = wanted > edge
+    # A body is filled where its sides meet, and no further than the skin is thick from there.
+    bulky = (wanted > edge) & (wanted > 0.5 * room)
     if bulky.any():
+        meets = cKDTree(outside.vertices[bulky]).query(outside.vertices)[0]
+        bulky = (wanted > edge) & (meets <= wanted)
         room = np.where(
             bulky, np.minimum(room, _share_of_body(solid, outside, bulky, doubled)), room
         )

@@ -61,7 +61,6 @@ def test_solutions_determinants_and_turns_are_numpys(symmetric):
     np.testing.assert_allclose(linalg.turns(maps), left @ rest, atol=1e-12)
 
 
-@pytest.mark.costly
 def test_no_coordinate_comes_from_sums_that_threads_order():
     """The library behind `@` and `numpy.linalg` adds in another order on another number."""
     found = []

@@ -30,8 +30,9 @@ GROUPS = {
 #: Groups that are folded away until they are wanted, and the formulas that are drawn.
 FOLDED = ("Boundary", "Cell size", "Strut radius")
 CURVES = ("LambdaFormula", "RadiusFormula")
-#: Between rows, pixels.
-SPACE = 6
+#: Between rows, pixels; and from a label to its field, which in a dark style sheet has no room to
+#: spare for "10.00 mm".
+SPACE, LABEL_SPACE = 6, 3
 
 
 class Section(QtWidgets.QWidget):
@@ -89,6 +90,7 @@ class Rows(QtWidgets.QWidget):
         self._form = QtWidgets.QFormLayout(self)
         self._form.setContentsMargins(6, 4, 6, 4)
         self._form.setVerticalSpacing(0)
+        self._form.setHorizontalSpacing(LABEL_SPACE)
         self._form.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
         self._rows: list[tuple[str, tuple[Any, ...]]] = []
         #: Sentences below fields, by the names of their rows.

@@ -11,6 +11,7 @@ import trimesh
 
 import command
 import volfrep
+import volfrep.cli.run_options  # whose sentences name the forms there are when it is read
 from volfrep import VolfrepError
 from volfrep.io.write.stl import write_stl
 from volfrep.mesh.triangle_mesh import TriangleMesh

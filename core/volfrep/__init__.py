@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .api import (
         Part,
         as_solid,
+        bare_surface,
         block,
         coupons,
         fill,
@@ -61,6 +62,7 @@ _HOMES = {
     "cell_from_lines": "design.drawn_cell",
     "make_cell": "design.cells",
     "as_solid": "api.calls",
+    "bare_surface": "api.calls",
     "block": "api.calls",
     "coupons": "api.calls",
     "evaluate": "studies.sweep",
@@ -100,6 +102,7 @@ __all__ = [
     "TriangleMesh",
     "VolfrepError",
     "as_solid",
+    "bare_surface",
     "block",
     "cell_from_lines",
     "coupons",

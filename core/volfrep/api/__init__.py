@@ -13,6 +13,7 @@ True
 
 from .calls import (
     as_solid,
+    bare_surface,
     block,
     coupons,
     fill,
@@ -31,6 +32,7 @@ __all__ = [
     "Part",
     "accepted",
     "as_solid",
+    "bare_surface",
     "block",
     "coupons",
     "fill",

@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from ..jobs.slices import Layers
     from ..jobs.solving import Solved
     from ..loads.load_cases import LoadCases
+    from ..output.bare_surface import BareSurface
     from ..reports.orientation import Orientations
 
 
@@ -639,6 +640,48 @@ def coupons(
     with shown(progress) as told:
         wanted = specified(spec, dict(parameters), None)
         return make_coupons(wanted, kinds, cells=cells, first=first, progress=told)
+
+
+def bare_surface(
+    part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
+    spec: LatticeSpec | None = None,
+    *,
+    unit: str | None = None,
+    progress: ProgressCallback | bool | None = None,
+    cache: StageCache | None = None,
+    **parameters: Unpack[Keywords],
+) -> BareSurface:
+    """The surface that a part's TPMS sheets follow, without thickness, cut at the part's wall.
+
+    Args:
+        part: as of `fill`.
+        spec: of sheets, without a skin or with the output ``lattice``.
+        unit: as of `fill`.
+        progress: as of `fill`.
+        cache: as of `fill`.
+        parameters: as of `fill`.
+
+    Returns:
+        Its `mesh` is open; `save` writes it for slicers that print surfaces as single lines.
+
+    Raises:
+        VolfrepError: the lattice has no sheets, something of it is about their thickness, or the
+            part is no closed solid.
+        Cancelled: the callback said so.
+
+    >>> import trimesh, volfrep
+    >>> made = volfrep.bare_surface(
+    ...     trimesh.creation.box((20, 20, 20)), cell="Schwarz P", cell_size=10, shell=0
+    ... )
+    >>> round(made.area / 800, 2)
+    2.35
+    """
+    from ..output.bare_surface import bare_surface as made_of
+
+    cache = _cache(cache)
+    with shown(progress) as told:
+        solid, wanted = _asked(part, unit, told, spec, dict(parameters), None)
+        return made_of(solid, wanted, progress=told, cache=cache)
 
 
 def slicer_infill(

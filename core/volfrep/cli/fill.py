@@ -104,6 +104,9 @@ def _told_lost(ending: Ending) -> None:
 
 def _fill(given: argparse.Namespace) -> None:
     options = fill_options(given)
+    if options.bare_surface:
+        _fill_surface(options)
+        return
 
     from ..design.forecast import forecast_fill
     from ..jobs.kinds import lattice_kind
@@ -133,6 +136,26 @@ def _fill(given: argparse.Namespace) -> None:
         )  # fmt: skip
         made.ahead = lambda _: let_go(executor)  # all groups are cut
         _make(FilledPart(made, progress=progress), options, start, {"read": read_seconds})
+
+
+def _fill_surface(options: FillOptions) -> None:
+    """Write the surface that a part's sheets follow."""
+    from ..output.bare_surface import bare_surface, refuse_solid_form
+
+    start = time.perf_counter()
+    refuse_solid_form(options.output)
+    solid = read_part(options.part, options.unit, options.spec.cell_size)
+    with drawn(options.quiet) as progress:
+        made = bare_surface(solid, options.spec, progress=progress)
+        made.save(options.output)
+    print_warnings(made.warnings)
+    if not options.quiet:
+        print_rows(
+            ("file", f"{options.output}, {Path(options.output).stat().st_size / 1e6:.1f} MB"),
+            *made.rows(),
+            ("time", f"{time.perf_counter() - start:.2f} s"),
+        )
+    _keep(options)
 
 
 def _fill_within(

@@ -110,12 +110,14 @@ class FillOptions(MeshOptions):
         unit: of its lengths; None for what it says.
         workers: processes that cut; None for as many as it is worth.
         scheduler: of Dask, in their stead.
+        bare_surface: whether only the surface that sheets follow is written.
     """
 
     part: str
     unit: str | None
     workers: int | None
     scheduler: str | None
+    bare_surface: bool
 
 
 @dataclass(frozen=True)
@@ -212,10 +214,26 @@ def fill_options(given: argparse.Namespace) -> FillOptions:
         VolfrepError: it makes no sense, or could not be written.
     """
     common = _mesh_options(given, specified(given))
+    if given.bare_surface:
+        _refuse_of_solids(given)
     return FillOptions(
         **common, part=given.part, unit=given.unit, workers=given.workers,
-        scheduler=given.scheduler,
+        scheduler=given.scheduler, bare_surface=given.bare_surface,
     )  # fmt: skip
+
+
+def _refuse_of_solids(given: argparse.Namespace) -> None:
+    """Refuse, beside a bare surface, what is made or told of a solid."""
+    asked = {
+        "report": given.report, "picture": given.picture, "print-report": given.print_report,
+        "as-printed": given.as_printed, "max-triangles": given.max_triangles,
+        "max-size": given.max_size, "service": given.service, "3mf": given.threemf,
+    }  # fmt: skip
+    for name, value in asked.items():
+        if value is not None:
+            raise VolfrepError(
+                f"--{name} is of a solid, and --bare-surface writes an open surface: leave one out."
+            )
 
 
 def block_options(given: argparse.Namespace) -> BlockOptions:

@@ -300,6 +300,11 @@ RUN_OPTIONS = (
         "draw struts so that by that table they come out as thick as asked for", "", MATERIAL_GROUP,
     ),
     RunOption(
+        "bare-surface", ("fill",),
+        "write the surface that sheets of a TPMS follow, without thickness, for slicers that print "
+        "an open mesh as single lines",
+    ),
+    RunOption(
         "print-report", MESHED,
         "say how the part suits a printing process: FFF, SLA, SLS, MJF, LPBF or EBM", "PROCESS",
     ),

@@ -80,6 +80,8 @@ def write_3mf(
     path: str | os.PathLike[str],
     monitor: Monitor | None = None,
     figures: Mapping[str, str] = NOTHING,
+    *,
+    is_open: bool = False,
 ) -> None:
     """Write triangles as a compressed 3MF file, beside the target and then renamed.
 
@@ -89,6 +91,7 @@ def write_3mf(
         monitor: told the progress, asked for a cancel.
         figures: of the run, kept as metadata: `Description`, which readers show, and others, which
             are put under a name of our own.
+        is_open: whether it is a surface that closes nothing, which the file says then.
 
     Raises:
         VolfrepError: the mesh is empty, holds coordinates that float32 cannot, or has triangles
@@ -96,7 +99,9 @@ def write_3mf(
         Cancelled: when the monitor says so; no file is left behind.
     """
     given = number_vertices(surface, path, as_text=True)
-    _write(path, [_mesh_object(1, "part", given)], 1, _rows(given), monitor, figures)
+    whole = mesh_text(given.decimals(), given.corners(), iter(()))
+    parts = [_object(1, "part", whole, kind="surface" if is_open else "model")]
+    _write(path, parts, 1, _rows(given), monitor, figures)
 
 
 def write_3mf_beams(
@@ -202,8 +207,10 @@ def package_entry(name: str) -> zipfile.ZipInfo:
     return entry
 
 
-def _object(number: int, name: str, inside: Iterator[bytes], prefix: str = "") -> Iterator[bytes]:
-    yield f'<{prefix}object id="{number}" type="model" name="{name}">'.encode()
+def _object(
+    number: int, name: str, inside: Iterator[bytes], prefix: str = "", kind: str = "model"
+) -> Iterator[bytes]:
+    yield f'<{prefix}object id="{number}" type="{kind}" name="{name}">'.encode()
     yield from inside
     yield f"</{prefix}object>".encode()
 

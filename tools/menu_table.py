@@ -17,10 +17,10 @@ PAGE = ROOT / "docs/commands/clicked.md"
 FOLDERS = ("", "debian13", "forky")
 HEAD = """# Clicked in each FreeCAD
 
-What a real click on each entry of the menu brought in FreeCAD {versions}, where `make test-menu` found no error in the report view and no window beyond the screen. The examples have a check of their own. *Grey* entries say in the status bar what to select.
+What a real click on each entry of the menu brought in FreeCAD {versions} with a lattice selected; `make test-menu` found no error in the report view and no window beyond the screen. With nothing selected {alike} bring the same, and the others are grey.
 
-| command | a lattice is selected | nothing is selected |
-| --- | --- | --- |
+| command | what it brought |
+| --- | --- |
 """  # noqa: E501
 
 
@@ -38,16 +38,20 @@ def page(runs: list[dict[str, Any]]) -> str:
     """The page, of runs in the order of their releases."""
     tables = {str(run["FreeCAD"]): run["seen"] for run in runs}
     commands = list(dict.fromkeys(name for table in tables.values() for name in table))
-    rows = []
+    rows, alike = [], []
     for name in commands:
-        cells = [
+        brought, without = (
             told(
                 {version: table.get(name, {}).get(given, "-") for version, table in tables.items()}
             )
             for given in ("a lattice", "nothing")
-        ]
-        rows.append(f"| {name} | {cells[0]} | {cells[1]} |\n")
-    return HEAD.format(versions=", ".join(tables)) + "".join(rows)
+        )
+        if without == brought != "grey":
+            alike.append(name)
+        elif without != "grey":
+            brought += f"; with nothing selected: {without}"
+        rows.append(f"| {name} | {brought} |\n")
+    return HEAD.format(versions=", ".join(tables), alike=", ".join(alike)) + "".join(rows)
 
 
 def main() -> None:

@@ -173,6 +173,17 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "fill(compensate)": lambda value: volfrep.fill(
         TETRAHEDRON, compensate="x" if value is None else value, **CELL
     ),
+    **{
+        f"{name}({limit})": lambda value, call=call, limit=limit: call(
+            **{limit: "x" if value is None else value}
+        )
+        for name, call in (
+            ("size", lambda **limits: volfrep.size("none.stl", HELD, **limits, **CELL)),
+            ("block", lambda **limits: volfrep.block((1, 1, 1), **limits, **CELL)),
+            ("mesh_network", lambda **limits: volfrep.mesh_network((NODES, [(0, 1)]), **limits)),
+        )
+        for limit in ("max_triangles", "max_size", "service")
+    },
     "fill(unit)": lambda value: volfrep.fill("none.stl", unit=value, **CELL),
     "properties(relative_density)": lambda value: volfrep.properties(
         "BCC", 10, relative_density=value

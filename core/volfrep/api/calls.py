@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..design.cells import find_cell
-from ..design.file_limits import FileLimits, limits_of
+from ..design.file_limits import limits_of
 from ..design.grading import Field
 from ..design.graphs.files import read_network
 from ..design.graphs.graph import GivenGraph
@@ -48,7 +48,6 @@ if TYPE_CHECKING:
     from ..design.parameters.typed import Keywords, SizeKeywords
     from ..jobs.coupons import Coupon
     from ..jobs.homogenised import HomogenisedPart
-    from ..jobs.infill import Infill
     from ..jobs.sizing import Printing
     from ..jobs.slicer_infill import SlicerInfill
     from ..jobs.slices import Layers
@@ -56,6 +55,7 @@ if TYPE_CHECKING:
     from ..loads.load_cases import LoadCases
     from ..output.bare_surface import BareSurface
     from ..reports.orientation import Orientations
+    from ..reports.result import Result
 
 
 def fill(
@@ -115,6 +115,8 @@ def fill(
     8
     """
     from ..jobs.targets import solve_target
+    from ..output.file_size import fill_within
+    from ..output.form import find_form
     from ..output.sources import FilledPart
 
     cache = _cache(cache)
@@ -130,38 +132,22 @@ def fill(
             up = parameters.get("build_direction", BY_NAME["build_direction"].default)
             wanted, note = compensated(wanted, table, up)
             notes.append(note)
+
+        def make(spec: LatticeSpec) -> FilledPart:
+            infill = solve_target(solid, spec, progress=told, cache=cache, executor=executor)
+            return FilledPart(infill, cache)
+
         limits = limits_of(service, max_triangles, max_size)
-        if limits:
-            infill, note = _fit(solid, wanted, limits, told, cache, executor)
-            notes += [note] if note else []
-        else:
-            infill = solve_target(solid, wanted, progress=told, cache=cache, executor=executor)
-        result = infill.result
-        report = dataclasses.replace(result.report, warnings=(*notes, *result.report.warnings))
-        result = dataclasses.replace(result, report=report)
-        return Part(result, infill.spec, solid, cache, FilledPart(infill, cache))
+        made, kept = fill_within(solid, wanted, limits, find_form("part.stl"), make)
+        return Part(_noted(made.result, (*notes, *kept)), made.spec, solid, cache, made)
 
 
-def _fit(
-    solid: Solid,
-    wanted: LatticeSpec,
-    limits: FileLimits,
-    told: ProgressCallback | None,
-    cache: StageCache,
-    executor: Executor | None,
-) -> tuple[Infill, str]:
-    """A filled part whose binary STL keeps within limits, and what that costs."""
-    from ..jobs.targets import solve_target
-    from ..output.file_size import filled_triangles, fit_file
-    from ..output.form import find_form
-    from ..output.sources import FilledPart
-
-    def make(spec: LatticeSpec) -> FilledPart:
-        infill = solve_target(solid, spec, progress=told, cache=cache, executor=executor)
-        return FilledPart(infill, cache)
-
-    found = fit_file(wanted, limits, find_form("part.stl"), filled_triangles(solid), make)
-    return found.made.infill, found.note
+def _noted(result: Result, notes: Sequence[str]) -> Result:
+    """A result whose report warns of more."""
+    if not notes:
+        return result
+    report = dataclasses.replace(result.report, warnings=(*notes, *result.report.warnings))
+    return dataclasses.replace(result, report=report)
 
 
 def size(
@@ -182,6 +168,9 @@ def size(
     unit: str | None = None,
     progress: ProgressCallback | bool | None = None,
     cache: StageCache | None = None,
+    max_triangles: int | None = None,
+    max_size: float | None = None,
+    service: str | None = None,
     **parameters: Unpack[SizeKeywords],
 ) -> Part:
     """Fill a solid with a lattice whose struts are sized for its load cases.
@@ -209,6 +198,9 @@ def size(
         unit: as of `fill`.
         progress: as of `fill`.
         cache: as of `fill`.
+        max_triangles: as of `fill`; radii are found before, and stay.
+        max_size: as of `fill`.
+        service: as of `fill`.
         parameters: as of `fill`, and what is wanted, as options of the command: `max_stress`,
             `safety`, `max_displacement`, `buckling`, `min_frequency`, `strut_mass`, `thinnest`,
             `thickest`, `smooth`, `skin_thinnest`, `skin_thickest`, `skin_patch`, `sized_mass`.
@@ -239,9 +231,12 @@ def size(
     from ..jobs.infill import Infill
     from ..jobs.sizing import GOALS, check_file_proof, goal_of, prove_file
     from ..jobs.sizing import size as size_struts
+    from ..output.file_size import fill_within
+    from ..output.form import find_form
     from ..output.sources import FilledPart
 
     whole("steps", steps, 1, 100_000)
+    limits = limits_of(service, max_triangles, max_size)
     if prove not in (None, "file"):
         raise VolfrepError(f"'prove' is 'file' or nothing, not {brief(prove)}.")
     given = with_current_names(parameters)
@@ -263,10 +258,14 @@ def size(
             solid, wanted, loads, goal, most_steps=steps, prove_it=proof, progress=told,
             cache=cache,
         )  # fmt: skip
-        infill = Infill(solid, made.spec, progress=told, cache=cache)
+
+        def fill(spec: LatticeSpec) -> FilledPart:
+            return FilledPart(Infill(solid, spec, progress=told, cache=cache), cache)
+
+        filled, kept = fill_within(solid, made.spec, limits, find_form("part.stl"), fill)
         if prove == "file":
-            prove_file(made, infill.result.mesh, loads, voxel=voxel, progress=told)
-        return Part(infill.result, made.spec, solid, cache, FilledPart(infill, cache), made)
+            prove_file(made, filled.result.mesh, loads, voxel=voxel, progress=told)
+        return Part(_noted(filled.result, kept), filled.spec, solid, cache, filled, made)
 
 
 def _printing(table: str | None, scatter: float, up: Any) -> Printing | None:
@@ -470,6 +469,9 @@ def block(
     *,
     material: str | None = None,
     progress: ProgressCallback | bool | None = None,
+    max_triangles: int | None = None,
+    max_size: float | None = None,
+    service: str | None = None,
     **parameters: Unpack[Keywords],
 ) -> Part:
     """A free-standing block of whole cells with round struts.
@@ -480,6 +482,9 @@ def block(
         material: as of `fill`.
         progress: True for a bar in a terminal or a notebook; or a function that is called with the
             fraction done and the stage, and cancels by returning False.
+        max_triangles: as of `fill`.
+        max_size: as of `fill`.
+        service: as of `fill`.
         parameters: as of `fill`.
 
     Raises:
@@ -492,8 +497,11 @@ def block(
     >>> cube.report.struts - cube.report.nodes + 1 == cube.report.genus
     True
     """
+    from ..design.forecast import forecast_block
     from ..jobs.kinds.kind import block_counts
     from ..jobs.targets import solve_block_target
+    from ..output.file_size import keep_within
+    from ..output.form import find_form
     from ..output.sources import Block
 
     counts = block_counts(count)
@@ -505,9 +513,13 @@ def block(
     corners = np.array([(0, 0, 0), counts], float)
     with shown(progress) as told:
         wanted = specified(spec, dict(parameters), material, lambda size: size * corners)
-        block = solve_block_target(wanted, counts, progress=told)
-        made = Block(block, told)
-        return Part(made.result, block.spec, None, StageCache(), made)
+        limits = limits_of(service, max_triangles, max_size)
+        made, kept = keep_within(
+            wanted, limits, find_form("part.stl"),
+            lambda spec: forecast_block(spec, counts).triangles,
+            lambda spec: Block(solve_block_target(spec, counts, progress=told), told),
+        )  # fmt: skip
+        return Part(_noted(made.result, kept), made.spec, None, StageCache(), made)
 
 
 def mesh_network(
@@ -515,6 +527,9 @@ def mesh_network(
     spec: LatticeSpec | None = None,
     *,
     progress: ProgressCallback | bool | None = None,
+    max_triangles: int | None = None,
+    max_size: float | None = None,
+    service: str | None = None,
     **parameters: Unpack[Keywords],
 ) -> Part:
     """The nodes and struts of any graph, meshed as they are in free space.
@@ -528,6 +543,10 @@ def mesh_network(
             `networkx.Graph` whose nodes are points or have one as ``pos``, or a mesh's edges.
         spec: what to make.
         progress: as of `volfrep.fill`.
+        max_triangles: of the mesh: struts have as many corners less round them as it takes; the
+            report's warnings tell what that costs in mm.
+        max_size: of its binary STL in megabytes, in the same way.
+        service: as of `volfrep.fill`.
         parameters: as of `volfrep.fill`.
 
     Raises:
@@ -539,8 +558,11 @@ def mesh_network(
     >>> made.report.genus, made.report.bodies
     (1, 1)
     """
+    from ..output.file_size import keep_within
+    from ..output.form import find_form
     from ..output.sources import FreeGraph
 
+    limits = limits_of(service, max_triangles, max_size)
     if not isinstance(graph, (str, os.PathLike)):
         found = as_graph(graph)
         check_kind("graph", found, GivenGraph, "a file, nodes and struts, a graph or a mesh")
@@ -550,8 +572,11 @@ def mesh_network(
     bounds = np.array([found.nodes.min(axis=0), found.nodes.max(axis=0)])
     wanted = specified(spec, {**parameters, "network": found}, None, lambda size: bounds)
     with shown(progress) as told:
-        made = FreeGraph(wanted, told)
-        return Part(made.result, wanted, None, StageCache(), made)
+        made, kept = keep_within(
+            wanted, limits, find_form("part.stl"), lambda _: 0.0,
+            lambda spec: FreeGraph(spec, told),
+        )  # fmt: skip
+        return Part(_noted(made.result, kept), made.spec, None, StageCache(), made)
 
 
 def slice_layers(

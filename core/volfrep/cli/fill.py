@@ -193,12 +193,11 @@ def _make_within(
         start: as of `_make`.
         before: as of `_make`.
     """
-    from ..output.file_size import fit_file
+    from ..output.file_size import keep_within
 
-    found = fit_file(options.spec, options.limits, options.form, expect, make)
-    if found.note:
-        print_warnings([found.note])
-    _make(found.made, options, start, before)
+    made, notes = keep_within(options.spec, options.limits, options.form, expect, make)
+    print_warnings(notes)
+    _make(made, options, start, before)
 
 
 def _block(given: argparse.Namespace) -> None:

@@ -11,7 +11,7 @@ from typing import TypeVar
 from ..design.file_limits import FileLimits
 from ..design.forecast import forecast_fill
 from ..design.spec import LatticeSpec
-from ..jobs.file_limits import Fitted, fit_within
+from ..jobs.file_limits import fit_within
 from ..jobs.kinds import lattice_kind
 from ..mesh.triangle_mesh import TriangleMesh
 from .form import Form
@@ -34,14 +34,14 @@ def written_size(source: Source, form: Form) -> float:
         return path.stat().st_size / 1e6
 
 
-def fit_file(
+def keep_within(
     spec: LatticeSpec,
     limits: FileLimits,
     form: Form,
     expect: Callable[[LatticeSpec], float],
     make: Callable[[LatticeSpec], S],
-) -> Fitted[S]:
-    """What has the finest facets with which its file keeps within limits.
+) -> tuple[S, tuple[str, ...]]:
+    """What has facets as fine as limits of its file let them be, if there are any.
 
     Args:
         spec: what is wanted.
@@ -49,27 +49,6 @@ def fit_file(
         form: of it.
         expect: about how many triangles a specification has, such as `filled_triangles`.
         make: makes one.
-
-    Raises:
-        VolfrepError: as of `fit_within`.
-    """
-
-    def tried(spec: LatticeSpec) -> tuple[S, int, float]:
-        made = make(spec)
-        size = written_size(made, form) if limits.megabytes is not None else 0.0
-        return made, made.triangles, size
-
-    return fit_within(spec, limits, expect, tried)
-
-
-def fill_within(
-    solid: TriangleMesh,
-    spec: LatticeSpec,
-    limits: FileLimits,
-    form: Form,
-    make: Callable[[LatticeSpec], S],
-) -> tuple[S, tuple[str, ...]]:
-    """A filled solid, with facets as fine as limits of its file let them be if there are any.
 
     Returns:
         What `make` has made, and what the limits have cost, for the user.
@@ -79,8 +58,29 @@ def fill_within(
     """
     if not limits:
         return make(spec), ()
-    found = fit_file(spec, limits, form, filled_triangles(solid), make)
+
+    def tried(spec: LatticeSpec) -> tuple[S, int, float]:
+        made = make(spec)
+        size = written_size(made, form) if limits.megabytes is not None else 0.0
+        return made, made.triangles, size
+
+    found = fit_within(spec, limits, expect, tried)
     return found.made, (found.note,) if found.note else ()
+
+
+def fill_within(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    limits: FileLimits,
+    form: Form,
+    make: Callable[[LatticeSpec], S],
+) -> tuple[S, tuple[str, ...]]:
+    """The same of a filled solid.
+
+    Raises:
+        VolfrepError: as of `fit_within`.
+    """
+    return keep_within(spec, limits, form, filled_triangles(solid), make)
 
 
 def filled_triangles(solid: TriangleMesh) -> Callable[[LatticeSpec], float]:

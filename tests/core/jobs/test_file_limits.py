@@ -9,7 +9,7 @@ import trimesh
 
 import samples
 from command import run
-from volfrep import VolfrepError, fill
+from volfrep import VolfrepError, block, fill, mesh_network, size
 from volfrep.design.file_limits import SERVICES, FileLimits, limits_of
 from volfrep.io.write.stl import write_stl
 
@@ -75,6 +75,48 @@ def test_in_python_the_report_tells_what_it_costs():
     assert 14_000 <= part.report.triangles <= 20_000
     assert any("To keep within 20,000 triangles" in text for text in part.report.warnings)
     assert part.report.watertight
+
+
+def test_a_block_in_python_keeps_within_limits():
+    wanted = {"cell": "BCC", "cell_size": 10, "strut_radius": 1}
+    part = block((2, 2, 2), **wanted, max_size=0.9)
+    assert 0.7 * 0.9e6 <= 84 + 50 * len(part.mesh.faces) <= 0.9e6
+    assert part.spec.deviation is None
+    assert any("To keep within 0.9 MB" in text for text in part.report.warnings)
+    with pytest.raises(VolfrepError, match="at which its lattice keeps its shape"):
+        block((2, 2, 2), **wanted, max_triangles=200)
+
+
+def test_a_graph_in_python_keeps_within_limits():
+    graph = ([[0, 0, 0], [20, 0, 0], [20, 20, 0], [0, 0, 15]], [(0, 1), (1, 2), (2, 3)])
+    wanted = {"strut_radius": 1, "deviation": 0.005}
+    most = int(0.7 * mesh_network(graph, **wanted).report.triangles)
+    part = mesh_network(graph, **wanted, max_triangles=most)
+    assert 0.5 * most < len(part.mesh.faces) <= most
+    assert any("corners round in place of" in text for text in part.report.warnings)
+    with pytest.raises(VolfrepError, match="fewest corners round its struts"):
+        mesh_network(graph, **wanted, max_triangles=100)
+
+
+@pytest.mark.costly
+def test_a_sized_part_in_python_keeps_within_limits():
+    bar = samples.box((20.0, 10.0, 10.0))
+    held, pulled = ({"point": [x, 0, 0], "normal": [1, 0, 0]} for x in (0, 20))
+    loads = {
+        "material": "PA12",
+        "support": [{"plane": held, "fixed": True}],
+        "case": [{"load": [{"plane": pulled, "force": [20, 0, 0]}]}],
+    }
+    wanted = {"cell": "BCC", "cell_size": 10, "strut_radius": 1, "shell": 0, "boundary": "whole",
+              "safety": 3, "steps": 2, "proof": False}  # fmt: skip
+    free = size(bar, loads, **wanted)
+    most = int(0.75 * free.report.triangles)
+    part = size(bar, loads, **wanted, max_triangles=most)
+    assert 0.6 * most < len(part.mesh.faces) <= most
+    assert any("facets along a cell in place of" in text for text in part.report.warnings)
+    assert (part.sized.radii == free.sized.radii).all()
+    with pytest.raises(VolfrepError, match="limits of 'nobody' are not known"):
+        size(bar, loads, **wanted, service="nobody")
 
 
 @pytest.mark.costly

@@ -24,7 +24,7 @@ sys.path.insert(0, str(ROOT / "core"))
 from volfrep.cli.run_options import RUN_OPTIONS, RunOption  # noqa: E402
 from volfrep.design.parameters import GROUPS, PARAMETERS, Need, Parameter  # noqa: E402
 from volfrep.design.parameters.parameter import SHAPES  # noqa: E402
-from volfrep.design.parameters.table import WALLS  # noqa: E402
+from volfrep.design.parameters.table import RANDOM, WALLS  # noqa: E402
 
 _PLACE = re.compile(
     r"(<!-- parameters: (?P<groups>[^>]*) -->\n).*?(<!-- end of parameters -->)", re.DOTALL
@@ -32,7 +32,7 @@ _PLACE = re.compile(
 _OPTIONS = re.compile(
     r"(<!-- options: (?P<commands>[^>]*) -->\n).*?(<!-- end of options -->)", re.DOTALL
 )
-_HEAD = "| option | property | default | meaning | applies with |\n|---|---|---|---|---|\n"
+_HEAD = "| option, property | default | meaning |\n|---|---|---|\n"
 
 
 def refreshed(text: str) -> str:
@@ -46,23 +46,29 @@ def refreshed(text: str) -> str:
 
 
 def _options(wanted: str) -> str:
-    """The options of some commands that are none of the lattice's."""
+    """What some commands have beside the lattice's options, by the commands that share it."""
     commands = [name.strip() for name in wanted.split(",")]
     known = {name for row in RUN_OPTIONS for name in row.commands}
     strange = [name for name in commands if name not in known]
     if strange:
         raise ValueError(f"No options are known of a command '{strange[0]}'.")
-    rows = [row for row in RUN_OPTIONS if set(commands) & set(row.commands)]
-    lines = [_option(row, [name for name in commands if name in row.commands]) for row in rows]
-    return "| option | command | meaning |\n|---|---|---|\n" + "".join(lines)
+    rooms: dict[tuple[str, ...], list[str]] = {}
+    for row in RUN_OPTIONS:
+        shared = tuple(name for name in commands if name in row.commands)
+        if shared:
+            rooms.setdefault(shared, []).append(_option(row))
+    lines = []
+    for shared in sorted(rooms, key=lambda names: (commands.index(names[0]), -len(names))):
+        lines += [f"| **{', '.join(shared)}** | |\n", *rooms[shared]]
+    return "| option | meaning |\n|---|---|\n" + "".join(lines)
 
 
-def _option(row: RunOption, commands: list[str]) -> str:
+def _option(row: RunOption) -> str:
     shape = "|".join(row.choices) or row.shape
     names = f"-{row.short}, {row.option}" if row.short else row.option
     option = f"{names} {shape}".strip().replace("|", "\\|")
-    needed = " (to be given)" if row.required else ""
-    return f"| `{option}` | {', '.join(commands)} | {row.help}{needed} |\n"
+    needed = (" (one is required)" if row.either else " (required)") if row.required else ""
+    return f"| `{option}` | {row.help}{needed} |\n"
 
 
 def _table(wanted: str) -> str:
@@ -72,19 +78,20 @@ def _table(wanted: str) -> str:
         raise ValueError(f"There is no group of parameters '{strange[0]}'.")
     lines = []
     for name in names:
-        lines.append(f"| **{name}** | | | | |\n")
+        lines.append(f"| **{name}** | | |\n")
         lines += [_row(parameter) for parameter in PARAMETERS if parameter.group == name]
     return _HEAD + "".join(lines)
 
 
 def _row(row: Parameter) -> str:
-    option = f"`{row.option}{_shape(row)}`" if row.in_command else ""
-    default = row.default_text or ("to be given" if row.required else "")
+    """What it is called, its default, and what it means; in italics what it needs."""
+    option = [f"`{row.option}{_shape(row)}`"] if row.in_command else []
+    default = row.default_text or ("required" if row.required else "")
     if row.unit and row.default:
         default += f" {row.unit}"
-    cells = (option.replace("|", "\\|"), _property(row), default, f"{row.help}{_choices(row)}")
-    cells += (", ".join(map(_need, row.needs)),)
-    return f"| {' | '.join(cells)} |\n"
+    needs = f" *({', '.join(map(_need, row.needs))})*" if row.needs else ""
+    names = "<br>".join([*option, *_properties(row)]).replace("|", "\\|")
+    return f"| {names} | {default} | {row.help}{_choices(row)}{needs} |\n"
 
 
 def _shape(row: Parameter) -> str:
@@ -93,14 +100,15 @@ def _shape(row: Parameter) -> str:
     return f" {SHAPES[row.kind]}" if row.kind in SHAPES else " WORD"
 
 
-def _property(row: Parameter) -> str:
+def _properties(row: Parameter) -> list[str]:
     """The property or properties, with FreeCAD's first value where the command has none."""
     if not row.in_freecad:
-        return ""
+        return []
     names = [f"`{row.switch_name}`"] if row.switch else []
-    names += [] if row.position_of else [f"`{row.property_name}`"]
-    first = f" ({row.initial})" if row.initial is not None else ""
-    return ", ".join(names) + first
+    if not row.position_of:
+        first = f" ({row.initial})" if row.initial is not None else ""
+        names.append(f"`{row.property_name}`{first}")
+    return names
 
 
 def _choices(row: Parameter) -> str:
@@ -111,10 +119,14 @@ def _choices(row: Parameter) -> str:
 
 def _need(need: Need) -> str:
     names = " or ".join(name.replace("_", " ") for name in need.names)
+    if need.absent and need.values == WALLS:
+        return "struts"
     if need.absent:
         return f"no {names}"
     if need.values == WALLS:
         return f"{names} a [TPMS](tpms.md)"
+    if need.values == RANDOM:
+        return "random points"
     words = [str(value) for value in need.values]
     return f"{names} {' or '.join(filter(None, (', '.join(words[:-1]), *words[-1:])))}".strip()
 

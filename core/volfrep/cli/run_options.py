@@ -105,7 +105,7 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "output", ("solve",),
-        "displacements and stress in colours as .vtu for ParaView, or the figures as .json",
+        "displacements and stress as .vtu for ParaView, or the figures as .json",
         "FILE", writes="output", short="o",
     ),
     RunOption(
@@ -114,8 +114,8 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "output", ("homogenise",),
-        "displacements and stress in colours as .vtu for ParaView, the figures as .json, or a "
-        "CalculiX deck as .inp",
+        "displacements and stress as .vtu for ParaView, the figures as .json, or a CalculiX deck "
+        "as .inp",
         "FILE", writes="output", short="o",
     ),
     RunOption(
@@ -133,8 +133,8 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "kinds", ("coupon",),
-        "with commas: cube (cells between plates), tension (a bar with grips), bending (a beam for "
-        "three points) and ladder (single struts over diameter and inclination)",
+        "with commas: cube (between plates), tension (a bar with grips), bending (three points), "
+        "ladder (single struts over diameter and inclination)",
         "WORDS", default="cube,tension,bending,ladder",
     ),
     RunOption("cells", ("coupon",), "along the cube's edge (default 4)", "N", read=int, default=4),
@@ -203,46 +203,45 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "3mf", MESHED,
-        "what a 3MF file holds: the part as triangles (default), its lattice as beams of the beam "
-        "lattice extension (small, and made without a mesh), or both",
+        "what a 3MF file holds: the part as triangles (default), its lattice as beams (small, "
+        "made without a mesh), or both",
         "WORD", choices=words("3mf"), extensions=suffixes_of("3mf"), place="threemf",
     ),
     RunOption(
         "step", MESHED,
-        "what a .step file holds: a plane face for every triangle (faceted, default); cylinders, "
-        "cones and spheres (exact, by an installed FreeCAD); or the struts' axes (wireframe)",
+        "what a .step file holds: a plane face for every triangle (default), exact cylinders, "
+        "cones and spheres (by an installed FreeCAD), or the struts' axes",
         "WORD", FORM_GROUP, choices=words("step"), extensions=suffixes_of("step"),
     ),
     RunOption(
         "inp", MESHED,
-        "what an .inp file for CalculiX holds: struts as beams with stiff ends (beams, default), "
-        "or the part as second-order tetrahedra by Gmsh (tetrahedra)",
+        "what an .inp file for CalculiX holds: struts as beams with stiff ends (default), or the "
+        "part as second-order tetrahedra by Gmsh",
         "WORD", FORM_GROUP, choices=words("inp"),
         extensions=suffixes_of("inp"),
     ),
     RunOption(
         "material", MESHED,
-        "a name of the table in docs/cells.md, or the path of a .toml or .json file: its density "
-        "gives the mass, its modulus goes into an .inp file; of such a file also NAME,E,NU in MPa "
-        "(default PETG,2100,0.38)",
+        "a name in docs/cells.md, or a .toml or .json file: its density gives the mass, its "
+        "modulus goes into an .inp file, for which NAME,E,NU in MPa will do (default "
+        "PETG,2100,0.38)",
         "M", MATERIAL_GROUP, reads="material file",
     ),
     RunOption(
         "material", ("slice", "infill", "coupon"),
-        "a name of the table in docs/cells.md, or a .toml or .json file: its density gives the "
-        "mass",
+        "a name in docs/cells.md, or a .toml or .json file: its density gives the mass",
         "M", reads="material file",
     ),
     RunOption(
         "material", ("solve",),
-        "in place of the load file's: a name of the table in docs/cells.md, a .toml or .json file, "
-        "or NAME,E,NU in MPa",
+        "in place of the load file's: a name in docs/cells.md, a .toml or .json file, or "
+        "NAME,E,NU in MPa",
         "M", reads="material file",
     ),
     RunOption(
         "material", ("properties", "find"),
-        "of the solid: a name of the table (see docs/cells.md), a .toml or .json file, or "
-        "NAME,E,NU; without one, figures are in units of the solid's",
+        "of the solid: a name in docs/cells.md, a .toml or .json file, or NAME,E,NU; without "
+        "one, figures are in units of the solid's",
         "M", reads="material file",
     ),
     RunOption(
@@ -276,7 +275,7 @@ RUN_OPTIONS = (
     RunOption(
         "as-printed", ("size",),
         "stress, stiffness and mass of struts as they come out, by a table as of fill; radii are "
-        "written as they are drawn",
+        "written as drawn",
         "TABLE", GOAL_GROUP, reads="table of printed diameters",
     ),
     RunOption(
@@ -301,12 +300,12 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "bare-surface", ("fill",),
-        "write the surface that sheets of a TPMS follow, without thickness, for slicers that print "
-        "an open mesh as single lines",
+        "write the surface of a TPMS without thickness, for slicers that print an open mesh as "
+        "single lines",
     ),
     RunOption(
         "print-report", MESHED,
-        "say how the part suits a printing process: FFF, SLA, SLS, MJF, LPBF or EBM", "PROCESS",
+        "say how the part suits a process, named as in --process", "PROCESS",
     ),
     RunOption(
         "layer", ("slice",), "height of a layer", "MM", read=float, required=True,
@@ -317,20 +316,20 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "format", ("slice",),
-        "a picture a layer, of each pixel the share of material, for resin printers (default); a "
-        "drawing a layer; or one file of the common layer interface, for metal printers",
+        "for each layer a picture of the share of material in its pixels, for resin printers "
+        "(default), or a drawing; or one file of the common layer interface, for metal printers",
         "WORD", choices=words("format"), default=words("format")[0],
     ),
     RunOption(
         "slicer", ("infill",),
-        "whose project it is: PrusaSlicer's (prusa), or OrcaSlicer's and Bambu Studio's (orca)",
+        "whose project it is: PrusaSlicer's, or OrcaSlicer's and Bambu Studio's (orca)",
         "WORD", choices=SLICERS, default=SLICERS[0],
     ),
     RunOption(
         "grading", ("infill",),
-        "what the density follows: the depth below the surface (skin: s = 1 at the surface and 0 "
-        "at the reach; core: the reverse), the place s along a direction, a field of values, or a "
-        "formula (default skin)",
+        "what the density follows: the depth (skin: s = 1 at the surface, 0 at the reach; core: "
+        "the reverse), the place s along a direction, a field of values, or a formula (default "
+        "skin)",
         "WORD", DENSITY_GROUP, choices=GRADINGS, default=GRADINGS[0],
     ),
     RunOption(
@@ -360,8 +359,8 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "sized", ("infill",),
-        "the specification that size has written (--write-spec): the density that its radii come "
-        "to, in place of a grading",
+        "a specification written by size: the density that its radii amount to, in place of a "
+        "grading",
         "FILE.toml", DENSITY_GROUP, reads="sized specification",
     ),
     RunOption(
@@ -403,8 +402,8 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "voxel", ("size", "solve"),
-        "edge of a voxel of the file that is solved (default: what makes a quarter of a million of "
-        "them, or lays two across its walls)",
+        "edge of the solver's voxels (default: what makes a quarter of a million, or lays two "
+        "across the walls)",
         "MM", read=float,
     ),
     RunOption(
@@ -414,12 +413,12 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "frequencies", ("homogenise",),
-        "so many of the lowest natural frequencies, with the first case's supports", "N",
+        "number of lowest natural frequencies, with the first case's supports", "N",
         read=int, default=0,
     ),
     RunOption(
         "load-factors", ("homogenise",),
-        "so many of the lowest factors of each case's loads at which the part buckles as a whole",
+        "number of lowest factors of each case's loads at which the part buckles as a whole",
         "N", read=int, default=0,
     ),
     RunOption(
@@ -476,8 +475,9 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "no-solid", ("size",),
-        "keep the skin within its largest thickness where limits ask for more; without it the "
-        "part becomes solid there", group=GOAL_GROUP,
+        "keep the skin within its largest thickness where limits ask for more; otherwise the "
+        "part becomes solid there",
+        group=GOAL_GROUP,
     ),
     RunOption(
         "sized-mass", ("size",), "of struts and skin that are sized, for the most stiffness",
@@ -502,7 +502,7 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "prove", ("size",),
-        "solve the finished file as a solid, by voxels, and set it beside the design and CalculiX",
+        "solve the finished file as a solid, by voxels, beside the design and CalculiX",
         "WORD", GOAL_GROUP, choices=("file",),
     ),
     RunOption(
@@ -544,11 +544,11 @@ RUN_OPTIONS = (
         either="size", required=True,
     ),
     RunOption(
-        "wall-thickness", ("properties",), "of a sheet of walls", "MM", read=float, either="size",
+        "wall-thickness", ("properties",), "of a TPMS sheet", "MM", read=float, either="size",
         required=True,
     ),
     RunOption(
-        "wall-offset", ("properties",), "of a skeleton or complement of walls", "MM", read=float,
+        "wall-offset", ("properties",), "of its skeleton or complement", "MM", read=float,
         either="size", required=True,
     ),
     RunOption(
@@ -556,7 +556,7 @@ RUN_OPTIONS = (
         read=float, either="size", required=True,
     ),
     RunOption(
-        "wall-kind", ("properties",), "of walls (default: sheet)", "WORD",
+        "wall-kind", ("properties",), "of a TPMS (default: sheet)", "WORD",
         choices=("sheet", "skeleton", "complement"),
     ),
     RunOption(
@@ -584,14 +584,13 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "workers", ("fill",),
-        "processes that cut the lattice at the wall, side by side (default: one a core, and this "
-        "process alone for fewer than about 600,000 triangles); the file is the same with any "
-        "number",
+        "processes that cut the lattice at the wall (default: one a core; this one alone for "
+        "fewer than about 600,000 triangles); the file is the same with any number",
         "N", read=int, either="who works",
     ),
     RunOption(
         "scheduler", ("fill",),
-        "of Dask, such as tcp://HOST:8786, whose workers do that in their stead", "ADDRESS",
+        "of Dask, such as tcp://HOST:8786, whose workers do that instead", "ADDRESS",
         either="who works",
     ),
     RunOption(

@@ -821,6 +821,10 @@
       <translation>Punkte, an denen Löcher gebohrt werden</translation>
     </message>
     <message>
+      <source>Price of a kilogram of the material in your currency, for the cost in the panel; 0 for not known</source>
+      <translation>Preis eines Kilogramms des Materials in Ihrer Währung, für die Kosten im Fenster; 0 für unbekannt</translation>
+    </message>
+    <message>
       <source>Print</source>
       <translation>Druck</translation>
     </message>
@@ -1197,8 +1201,8 @@
       <translation>Die Fläche der Zelle Formula: null auf ihr, von x, y und z, die über eine Zelle von 0 bis 2 pi laufen</translation>
     </message>
     <message>
-      <source>The unit cell: one of the library, a surface that walls follow (Gyroid and others), or the .json file of your own</source>
-      <translation>Die Einheitszelle: eine der Bibliothek, eine Fläche, der Wände folgen (Gyroid und andere), oder die .json-Datei einer eigenen</translation>
+      <source>The unit cell: one of the library, a TPMS such as Gyroid, or the .json file of your own</source>
+      <translation>Die Einheitszelle: eine der Bibliothek, eine TPMS wie Gyroid, oder die .json-Datei einer eigenen</translation>
     </message>
     <message>
       <source>Their volume</source>
@@ -1341,10 +1345,6 @@
       <translation>Wasserdicht</translation>
     </message>
     <message>
-      <source>What a kilogram of the material costs, in your currency, from which the panel tells the cost of what is printed; 0 for not known</source>
-      <translation>Was ein Kilogramm des Materials kostet, in Ihrer Währung; daraus sagt das Fenster, was das Gedruckte kostet; 0 für unbekannt</translation>
-    </message>
-    <message>
       <source>What an update of these properties comes to</source>
       <translation>Was eine Aktualisierung mit diesen Eigenschaften ergibt</translation>
     </message>
@@ -1353,8 +1353,8 @@
       <translation>Was nicht zum Verfahren passt</translation>
     </message>
     <message>
-      <source>What says how thick the struts are: their radius, or what the lattice or the part is to come to, for which the radius is found</source>
-      <translation>Was bestimmt, wie dick die Streben sind: ihr Radius, oder was Gitter oder Teil erreichen sollen; der Radius dafür wird gefunden</translation>
+      <source>What sets the struts' radius: itself, or a target of the lattice or the part, for which it is found</source>
+      <translation>Was den Radius der Streben bestimmt: er selbst oder ein Ziel für Gitter oder Teil, für das er gefunden wird</translation>
     </message>
     <message>
       <source>What the density follows</source>
@@ -1365,8 +1365,8 @@
       <translation>Wovon die Zahlen sind</translation>
     </message>
     <message>
-      <source>What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, the nodes and struts of a file, or layers of cells that follow faces picked in FreeCAD</source>
-      <translation>Woraus das Gitter besteht: aus Zellen, den Voronoi- oder Delaunay-Kanten zufälliger Punkte, den Knoten und Streben einer Datei oder Lagen von Zellen, die in FreeCAD gewählten Flächen folgen</translation>
+      <source>What the lattice consists of: cells, Voronoi or Delaunay edges of random points, nodes and struts of a file, or layers of cells that follow faces picked in FreeCAD</source>
+      <translation>Woraus das Gitter besteht: Zellen, Voronoi- oder Delaunay-Kanten zufälliger Punkte, Knoten und Streben einer Datei oder Lagen von Zellen, die in FreeCAD gewählten Flächen folgen</translation>
     </message>
     <message>
       <source>What the lattice is coloured by</source>
@@ -1457,8 +1457,8 @@
       <translation>r: Radius der Streben</translation>
     </message>
     <message>
-      <source>sheet: a wall about the surface; skeleton: all where its formula is negative; complement: all where it is positive</source>
-      <translation>sheet: eine Wand um die Fläche; skeleton: alles, wo ihre Formel negativ ist; complement: alles, wo sie positiv ist</translation>
+      <source>sheet: a wall about the surface; skeleton: where its formula is negative; complement: where it is positive</source>
+      <translation>sheet: eine Wand um die Fläche; skeleton: wo ihre Formel negativ ist; complement: wo sie positiv ist</translation>
     </message>
     <message>
       <source>trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what reaches it</source>

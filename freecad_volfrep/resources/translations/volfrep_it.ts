@@ -821,6 +821,10 @@
       <translation>Punti in cui si praticano i fori</translation>
     </message>
     <message>
+      <source>Price of a kilogram of the material in your currency, for the cost in the panel; 0 for not known</source>
+      <translation>Prezzo di un chilogrammo del materiale nella propria valuta, per il costo nel pannello; 0 se non è noto</translation>
+    </message>
+    <message>
       <source>Print</source>
       <translation>Stampa</translation>
     </message>
@@ -1197,8 +1201,8 @@
       <translation>La superficie della cella Formula: zero su di essa, di x, y e z, che vanno da 0 a 2 pi su una cella</translation>
     </message>
     <message>
-      <source>The unit cell: one of the library, a surface that walls follow (Gyroid and others), or the .json file of your own</source>
-      <translation>La cella unitaria: una della libreria, una superficie seguita da pareti (Gyroid e altre), o il file .json di una propria</translation>
+      <source>The unit cell: one of the library, a TPMS such as Gyroid, or the .json file of your own</source>
+      <translation>La cella unitaria: una della libreria, una TPMS come Gyroid, o il file .json di una propria</translation>
     </message>
     <message>
       <source>Their volume</source>
@@ -1341,10 +1345,6 @@
       <translation>Stagno</translation>
     </message>
     <message>
-      <source>What a kilogram of the material costs, in your currency, from which the panel tells the cost of what is printed; 0 for not known</source>
-      <translation>Quanto costa un chilogrammo del materiale, nella propria valuta: da questo il pannello dice il costo di ciò che si stampa; 0 se non è noto</translation>
-    </message>
-    <message>
       <source>What an update of these properties comes to</source>
       <translation>Quanto comporta un aggiornamento di queste proprietà</translation>
     </message>
@@ -1353,8 +1353,8 @@
       <translation>Ciò che non si adatta al processo</translation>
     </message>
     <message>
-      <source>What says how thick the struts are: their radius, or what the lattice or the part is to come to, for which the radius is found</source>
-      <translation>Che cosa determina lo spessore delle aste: il loro raggio, o ciò che reticolo o pezzo devono raggiungere; il raggio adatto viene trovato</translation>
+      <source>What sets the struts' radius: itself, or a target of the lattice or the part, for which it is found</source>
+      <translation>Che cosa determina il raggio delle aste: il raggio stesso, o un obiettivo del reticolo o del pezzo, per cui viene trovato</translation>
     </message>
     <message>
       <source>What the density follows</source>
@@ -1365,8 +1365,8 @@
       <translation>A che cosa si riferiscono i valori</translation>
     </message>
     <message>
-      <source>What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, the nodes and struts of a file, or layers of cells that follow faces picked in FreeCAD</source>
-      <translation>Di cosa consiste il reticolo: celle, gli spigoli di Voronoi o Delaunay di punti casuali, i nodi e le aste di un file, o strati di celle che seguono facce scelte in FreeCAD</translation>
+      <source>What the lattice consists of: cells, Voronoi or Delaunay edges of random points, nodes and struts of a file, or layers of cells that follow faces picked in FreeCAD</source>
+      <translation>Di cosa consiste il reticolo: celle, spigoli di Voronoi o Delaunay di punti casuali, nodi e aste di un file, o strati di celle che seguono facce scelte in FreeCAD</translation>
     </message>
     <message>
       <source>What the lattice is coloured by</source>
@@ -1457,8 +1457,8 @@
       <translation>r: raggio delle aste</translation>
     </message>
     <message>
-      <source>sheet: a wall about the surface; skeleton: all where its formula is negative; complement: all where it is positive</source>
-      <translation>sheet: una parete attorno alla superficie; skeleton: tutto dove la sua formula è negativa; complement: tutto dove è positiva</translation>
+      <source>sheet: a wall about the surface; skeleton: where its formula is negative; complement: where it is positive</source>
+      <translation>sheet: una parete attorno alla superficie; skeleton: dove la sua formula è negativa; complement: dove è positiva</translation>
     </message>
     <message>
       <source>trim: the lattice is cut at the wall; whole: cells stay whole, and a skin joins what reaches it</source>

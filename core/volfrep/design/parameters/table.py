@@ -57,8 +57,7 @@ PARAMETERS = (
     ),
     Parameter(
         "cell", "cell", "Lattice",
-        "The unit cell: one of the library, a surface that walls follow (Gyroid and others), or "
-        "the .json file of your own",
+        "The unit cell: one of the library, a TPMS such as Gyroid, or the .json file of your own",
         default="CVC", freecad_name="CellType",
     ),
     Parameter(
@@ -79,8 +78,8 @@ PARAMETERS = (
     ),
     Parameter(
         "radius_driven_by", "choice", "Lattice",
-        "What says how thick the struts are: their radius, or what the lattice or the part is to "
-        "come to, for which the radius is found",
+        "What sets the struts' radius: itself, or a target of the lattice or the part, for which "
+        "it is found",
         default="radius", choices=DRIVERS, in_command=False, in_panel=True,
     ),
     Parameter(
@@ -127,8 +126,8 @@ PARAMETERS = (
     ),
     Parameter(
         "stiffness", "stiffness", "Lattice",
-        "In place of the radius: Young's modulus of the lattice along 100, 110, 111 or X,Y,Z of "
-        "its cell, in MPa where a material is given, else in units of the solid's",
+        "In place of the radius: Young's modulus along 100, 110, 111 or X,Y,Z of the cell, in "
+        "MPa with a material, else in units of the solid's",
         in_freecad=False, instead_of=("strut_radius", "relative_density", "mass", *SIZES),
     ),
     Parameter(
@@ -143,8 +142,8 @@ PARAMETERS = (
     ),
     Parameter(
         "wall_kind", "choice", "Walls",
-        "sheet: a wall about the surface; skeleton: all where its formula is negative; "
-        "complement: all where it is positive",
+        "sheet: a wall about the surface; skeleton: where its formula is negative; complement: "
+        "where it is positive",
         default="sheet", choices=("sheet", "skeleton", "complement"), needs=(OF_WALLS,),
         in_panel=True, field="wall.kind",
     ),
@@ -170,8 +169,8 @@ PARAMETERS = (
     ),
     Parameter(
         "network", "choice", "Network",
-        "What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, "
-        "the nodes and struts of a file, or layers of cells that follow faces picked in FreeCAD",
+        "What the lattice consists of: cells, Voronoi or Delaunay edges of random points, nodes "
+        "and struts of a file, or layers of cells that follow faces picked in FreeCAD",
         default="cells", choices=("cells", *RANDOM, "file", "faces"), of_block=False,
         field="network.kind",
     ),
@@ -307,9 +306,8 @@ PARAMETERS = (
     ),
     Parameter(
         "skin_face", "thick_faces", "Openings",
-        "A skin of its own thickness below the smooth face at a point, or below the faces in a "
-        "plane by a point and a normal; the last number is the thickness, and 0 leaves them open; "
-        "may be repeated",
+        "Skin below the smooth face at a point, or below the faces in a plane by a point and a "
+        "normal, of a thickness, the last number; 0 leaves them open; may be repeated",
         in_freecad=False, of_block=False,
     ),
     Parameter(
@@ -331,9 +329,9 @@ PARAMETERS = (
     ),
     Parameter(
         "keep_solid", "solids", "Openings",
-        "What stays solid: the room of a closed body in a file (STL, PLY, OBJ, OFF, GLB), or what "
-        "is nearer than a distance, the last number, to the smooth face at a point or to the faces "
-        "in a plane; may be repeated",
+        "What stays solid: the room of a closed body in a file (STL, PLY, OBJ, OFF, GLB), or "
+        "what is nearer than a distance, the last number, to the smooth face at a point or the "
+        "faces in a plane; may be repeated",
         in_freecad=False, of_block=False,
     ),
     Parameter(
@@ -549,8 +547,8 @@ PARAMETERS = (
     ),
     Parameter(
         "material_price", "number", "Material",
-        "What a kilogram of the material costs, in your currency, from which the panel tells the "
-        "cost of what is printed; 0 for not known",
+        "Price of a kilogram of the material in your currency, for the cost in the panel; 0 for "
+        "not known",
         default=0.0, in_command=False, in_panel=True,
     ),
     Parameter(

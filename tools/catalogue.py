@@ -23,7 +23,7 @@ from matplotlib.colors import Normalize
 
 from volfrep.design.cells import LIBRARY, PAPERS, USES
 from volfrep.mechanics import catalogue as shipped
-from volfrep.mechanics.endless import strains_held
+from volfrep.mechanics.endless import stretched_strains
 from volfrep.mechanics.materials import MATERIALS
 from volfrep.mechanics.tensor import gibson_ashby, hashin_shtrikman, moduli, young
 
@@ -143,7 +143,7 @@ def cells_table() -> str:
         ]
         lines += [
             f"| {cell.name} | {len(cell.nodes)} | {len(cell.struts)} | "
-            f"{'stretching' if strains_held(cell) == 6 else 'bending'} | {cell.about} | "
+            f"{'stretching' if stretched_strains(cell) == 6 else 'bending'} | {cell.about} | "
             f"{', '.join(cell.also)} |"
             for cell in LIBRARY.values()
             if cell.use == use

@@ -67,7 +67,7 @@ def load_cases_of(
 def _case(analysis: App.DocumentObject, frame: App.Placement) -> LoadCase:
     supports: list[Support] = []
     loads: list[Load] = []
-    pull = App.Vector()
+    acceleration = App.Vector()
     for constraint in constraints_of(analysis):
         read = _READERS.get(kind_of(constraint))
         if read is None:
@@ -85,10 +85,10 @@ def _case(analysis: App.DocumentObject, frame: App.Placement) -> LoadCase:
             if isinstance(made, Support):
                 supports.append(made)
             elif isinstance(made, App.Vector):
-                pull += made
+                acceleration += made
             else:
                 loads.append(made)
-    return LoadCase(analysis.Label, tuple(supports), tuple(loads), _tuple(pull))
+    return LoadCase(analysis.Label, tuple(supports), tuple(loads), _tuple(acceleration))
 
 
 def constraints_of(analysis: App.DocumentObject) -> list[App.DocumentObject]:

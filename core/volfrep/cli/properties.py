@@ -67,7 +67,7 @@ def _cells(options: argparse.Namespace) -> None:
 def _library_told() -> None:
     from ..design.cells import LIBRARY, USES
     from ..design.tpms import FORMULA, SURFACES
-    from ..mechanics.endless import strains_held
+    from ..mechanics.endless import stretched_strains
 
     print(f"{'name':<25}{'nodes':>6}{'struts':>8}{'Maxwell':>9}  {'carries by':<13}also known as")
     use = None
@@ -75,7 +75,7 @@ def _library_told() -> None:
         if cell.use != use:
             use = cell.use
             print(f"\n{USES[use]}")
-        carries = "stretching" if strains_held(cell) == 6 else "bending"
+        carries = "stretching" if stretched_strains(cell) == 6 else "bending"
         row = (
             f"{cell.name:<25}{len(cell.nodes):>6}{len(cell.struts):>8}"
             f"{cell.maxwell_number:>9}  {carries:<13}{', '.join(cell.also)}"

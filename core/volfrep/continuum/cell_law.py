@@ -9,7 +9,7 @@ import numpy as np
 
 from ..design.cells import UnitCell
 from ..mechanics.catalogue import joint_law
-from ..mechanics.frame import PeriodicFrame, frame_pulls, frame_tensor
+from ..mechanics.frame import PeriodicFrame, axial_forces, frame_tensor
 from ..mechanics.joint_fit import periodic_frame
 from ..util.types import Floats
 
@@ -87,9 +87,9 @@ def pressed_struts(cell: UnitCell, cell_size: float, radius: float) -> Floats:
     Joints hold struts more than pins do, and move aside: alone, struts bear as much or more.
     """
     frame, ratio = periodic_frame(cell), radius / cell_size
-    pulls = frame_pulls(frame, ratio, joint_law(cell, cell_size)(radius))
+    axial = axial_forces(frame, ratio, joint_law(cell, cell_size)(radius))
     square = ((frame.end - frame.start) ** 2).sum(axis=1)
-    result: Floats = -pulls * (square / (np.pi**3 * ratio**4 / 4.0))[:, None]
+    result: Floats = -axial * (square / (np.pi**3 * ratio**4 / 4.0))[:, None]
     return result
 
 

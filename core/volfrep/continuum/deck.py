@@ -82,17 +82,18 @@ def _parts(model: ContinuumModel, cases: Sequence[VoxelCase]) -> Iterator[bytes]
         yield f"*DENSITY\n{weight:.6g}\n".encode()
         yield f"*SOLID SECTION,ELSET=E{k},MATERIAL=M{k},ORIENTATION=O{k}\n".encode()
     yield b"*BOUNDARY\n"
-    for node, axis in np.argwhere(cases[0].held):
+    for node, axis in np.argwhere(cases[0].fixed):
         yield f"{node + 1},{axis + 1},{axis + 1}\n".encode()
     for case in cases:
-        same = np.array_equal(case.held, cases[0].held)
+        same = np.array_equal(case.fixed, cases[0].fixed)
         apart = "" if same else ": its own supports are left out"
         yield f"** Load case {case.name}{apart}\n".encode()
         yield b"*STEP\n*STATIC\n"
-        if case.moved.any() and same:
+        if case.prescribed.any() and same:
             yield b"*BOUNDARY,OP=MOD\n"
-            for node, axis in np.argwhere(case.held):
-                yield f"{node + 1},{axis + 1},{axis + 1},{case.moved[node, axis]:.9g}\n".encode()
+            for node, axis in np.argwhere(case.fixed):
+                value = case.prescribed[node, axis]
+                yield f"{node + 1},{axis + 1},{axis + 1},{value:.9g}\n".encode()
         yield b"*CLOAD,OP=NEW\n"
         for node, axis in np.argwhere(case.loads != 0.0):
             yield f"{node + 1},{axis + 1},{case.loads[node, axis]:.9g}\n".encode()

@@ -79,10 +79,15 @@ def frequencies(
         VolfrepError: it does not converge, or a body is attached to nothing.
         Cancelled: when the monitor says so.
     """
-    solver = multigrid_of(model, ~like.case.held, monitor)
+    solver = multigrid_of(model, ~like.case.fixed, monitor)
     mass = lumped_mass(model, masses)[:, None] * solver.fine.free
     values, modes, _ = _lowest(
-        solver, solver.fine, lambda moved: mass * moved, count, 1, "natural frequencies"
+        solver,
+        solver.fine,
+        lambda displacements: mass * displacements,
+        count,
+        1,
+        "natural frequencies",
     )
     return np.sqrt(np.maximum(values, 0.0)) / (2.0 * np.pi), modes
 
@@ -100,11 +105,16 @@ def buckling_factors(
         VolfrepError: it does not converge.
         Cancelled: when the monitor says so.
     """
-    solver = multigrid_of(model, ~state.case.held, monitor)
+    solver = multigrid_of(model, ~state.case.fixed, monitor)
     free = solver.fine.free
-    pulled = geometric_stiffness(model, state.strained)
+    geometric = geometric_stiffness(model, state.strained)
     values, modes, largest = _lowest(
-        solver, lambda moved: (pulled @ moved) * free, solver.fine, count, 2, "buckling loads"
+        solver,
+        lambda displacements: (geometric @ displacements) * free,
+        solver.fine,
+        count,
+        2,
+        "buckling loads",
     )
     pressed = values < -NEGLIGIBLE * largest
     return np.where(pressed, -1.0 / np.where(pressed, values, 1.0), np.inf), modes

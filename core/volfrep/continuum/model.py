@@ -27,7 +27,7 @@ from ..util.peaks import row_of_most
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from ..voxels.bricks import POINTS
-from ..voxels.loaded import Loaded, VoxelCase, solve_laid
+from ..voxels.loaded import Loaded, VoxelCase, solve_nodal_cases
 from ..voxels.multigrid import Elements, Fine, Multigrid
 from .bricks import AT_ONCE, Bricks, Shares
 from .cell_law import in_cell
@@ -131,13 +131,15 @@ def solve_continuum(
     def solver_of(free: Bools) -> Multigrid:
         return multigrid_of(model, free, monitor)
 
-    def state_of(case: VoxelCase, moved: Floats, forces: Floats, steps: int) -> ContinuumState:
-        work = float(np.vdot(moved, forces))
-        own = moved[model.elements.nodes].reshape(-1, 24)
+    def state_of(
+        case: VoxelCase, displacements: Floats, forces: Floats, steps: int
+    ) -> ContinuumState:
+        work = float(np.vdot(displacements, forces))
+        own = displacements[model.elements.nodes].reshape(-1, 24)
         if case.name in free_growth:
             own = own - free_growth[case.name]
         return ContinuumState(
-            case, moved, own, work, *_stress(model, own), _pressed(model, own), steps
+            case, displacements, own, work, *_stress(model, own), _pressed(model, own), steps
         )
 
     free_growth: dict[str, Floats] = {}
@@ -151,7 +153,7 @@ def solve_continuum(
             np.add.at(loads, model.elements.nodes.ravel(), forces)
             on_nodes = replace(on_nodes, loads=loads)
         laid.append(on_nodes)
-    return solve_laid(laid, solver_of, state_of, tolerance)
+    return solve_nodal_cases(laid, solver_of, state_of, tolerance)
 
 
 def _growth(model: ContinuumModel, warm: Floats, coefficient: float, reference: float) -> Floats:
@@ -214,15 +216,15 @@ def _pressed(model: ContinuumModel, own: Floats) -> Floats | None:
 
 def figures_of(model: ContinuumModel, state: ContinuumState) -> dict[str, Any]:
     """What a load case came to, as plain JSON values."""
-    moved, case = state.displacements, state.case
-    size = np.linalg.norm(moved, axis=1)
+    displacements, case = state.displacements, state.case
+    size = np.linalg.norm(displacements, axis=1)
     most = int(size.argmax())
     middles = (model.elements.place + 0.5) * model.bricks.edge + model.low
     result: dict[str, Any] = {
         "name": case.name,
         "displacement_mm": float(size[most]),
         "displacement_at": model.nodes[most].tolist(),
-        "loads": case.moved_by(moved),
+        "loads": case.mean_displacements(displacements),
         "work_nmm": state.work,
         "steps": state.steps,
     }
@@ -279,15 +281,15 @@ def conduct(
     rows = np.repeat(model.elements.nodes, 8, axis=1).ravel()
     columns = np.tile(model.elements.nodes, (1, 8)).ravel()
     matrix = csr_matrix((blocks.ravel(), (rows, columns)), (count, count))
-    value, held, given = np.zeros(count), np.full(count, -1), np.zeros(count)
+    value, fixed_by, given = np.zeros(count), np.full(count, -1), np.zeros(count)
     for region, power in powers:
         given += power * model.loaded.weights_of(region)
     for k, (region, temperature) in enumerate(temperatures):
         surface = np.zeros(len(model.loaded.body.nodes), bool)
         surface[nodes_in(model.loaded.body, region)] = True
         at = model.loaded.nodes_at(surface)[0]
-        value[at], held[at] = temperature, k
-    free = (held < 0).astype(float)[:, None]
+        value[at], fixed_by[at] = temperature, k
+    free = (fixed_by < 0).astype(float)[:, None]
     forces = (given - matrix @ value)[:, None]
     try:
         value += solve(System(matrix, forces, 1), forces, np.zeros(1), free)[:, 0]
@@ -296,4 +298,4 @@ def conduct(
             "The heat's equations did not converge: do the regions hang together?"
         ) from error
     flow = matrix @ value - given
-    return value, np.array([flow[held == k].sum() for k in range(len(temperatures))])
+    return value, np.array([flow[fixed_by == k].sum() for k in range(len(temperatures))])

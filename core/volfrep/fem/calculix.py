@@ -161,7 +161,7 @@ def solve(
         Cancelled: when the monitor says so.
     """
     with run([Path(deck).read_bytes()], f"'{deck}'", monitor, steps=1, seconds=seconds) as results:
-        node, moved = results.displacements()[-1]
+        node, displacements = results.displacements()[-1]
     result = np.zeros((int(node.max()) + 1, 3))
-    result[node] = moved
+    result[node] = displacements
     return result

@@ -104,6 +104,6 @@ def joint_step(
     )
 
 
-def joint_displacements(moved: Floats, balls: list[Ball]) -> Floats:
+def joint_displacements(displacements: Floats, balls: list[Ball]) -> Floats:
     """(n, 3) mm, the mean displacement of each joint's ball, from (nodes, 3) of all nodes."""
-    return np.array([ball.shares @ moved[ball.nodes] for ball in balls])
+    return np.array([ball.shares @ displacements[ball.nodes] for ball in balls])

@@ -30,15 +30,15 @@ class Case:
     """Loads that act together, on the nodes.
 
     Attributes:
-        held: (n, 6) bool, which displacements (x, y, z) and turns are given.
+        fixed: (n, 6) bool, which displacements (x, y, z) and turns are given.
         loads: (n, 6) forces, N, and moments, N mm.
-        moved: (n, 6) mm and radians, how what is held is moved; None for not at all.
+        prescribed: (n, 6) mm and radians, how what is held is moved; None for not at all.
         acceleration: (3,) mm/s2, of all that has a mass.
         name: for messages and reports.
     """
 
-    held: Bools
+    fixed: Bools
     loads: Floats
-    moved: Floats | None = None
+    prescribed: Floats | None = None
     acceleration: tuple[float, float, float] = (0.0, 0.0, 0.0)
     name: str = "load"

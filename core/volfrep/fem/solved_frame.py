@@ -117,13 +117,13 @@ def solve_frame(
     parts += [] if skin is None else [skin.mesh.nodes]
     parts += [] if more_nodes is None else [more_nodes]
     nodes = np.concatenate(parts)
-    moved = np.zeros((len(nodes), 3, len(cases)))
+    displacements = np.zeros((len(nodes), 3, len(cases)))
     sections = np.zeros((len(nodes), 3, len(cases)))
     on_skin = np.zeros((len(nodes), 6, len(cases)))
     frequencies = np.zeros(0)
     factors = np.full(len(cases), np.nan)
 
-    def deck(held: Bools, steps: Sequence[str]) -> Iterator[bytes]:
+    def deck(fixed: Bools, steps: Sequence[str]) -> Iterator[bytes]:
         yield from _beams(nodes, model, material)
         if skin is not None:
             yield from _skin(skin, model, material)
@@ -131,17 +131,17 @@ def solve_frame(
             first = len(model.elements)
             first += 0 if skin is None else len(skin.mesh.elements) + 3 * len(skin.springs)
             yield from _masses(attached, first)
-        yield _boundary(held).encode()
+        yield _boundary(fixed).encode()
         yield from (step.encode() for step in steps)
 
     for group in _of_equal_supports(cases):
-        held, with_modes = cases[group[0]].held, modes > 0 and 0 in group
+        fixed, with_modes = cases[group[0]].fixed, modes > 0 and 0 in group
         steps = [_static(cases[k]) for k in group]
         if with_modes:
             steps.append(f"*STEP\n*FREQUENCY\n{modes}\n*END STEP\n")
-        with run(deck(held, steps), _NAME, monitor, steps=len(group)) as results:
+        with run(deck(fixed, steps), _NAME, monitor, steps=len(group)) as results:
             for k, (number, values) in zip(group, results.displacements(), strict=False):
-                moved[number, :, k] = values
+                displacements[number, :, k] = values
             for k, (number, values) in zip(group, results.section_forces(), strict=False):
                 sections[number, :, k] = values[:, [2, 4, 5]]
                 solid = number >= len(model.nodes)
@@ -152,19 +152,19 @@ def solve_frame(
             near = np.nan if expected is None else float(expected[k])
             if np.isfinite(near):
                 scale = near / _FACTOR
-                with run(deck(held, [_buckling(cases[k], scale)]), _NAME, monitor) as results:
+                with run(deck(fixed, [_buckling(cases[k], scale)]), _NAME, monitor) as results:
                     found = results.load_factor()
                 if found is None:
                     raise VolfrepError("CalculiX found no load at which the frame buckles.")
                 factors[k] = scale * found
-    return SolvedFrame(moved, sections, frequencies, factors, on_skin)
+    return SolvedFrame(displacements, sections, frequencies, factors, on_skin)
 
 
 def _of_equal_supports(cases: Sequence[Case]) -> list[list[int]]:
     """The cases in groups that one run solves."""
     groups: list[list[int]] = []
     for k, case in enumerate(cases):
-        same = next((g for g in groups if np.array_equal(cases[g[0]].held, case.held)), None)
+        same = next((g for g in groups if np.array_equal(cases[g[0]].fixed, case.fixed)), None)
         groups.append([k]) if same is None else same.append(k)
     return groups
 
@@ -256,19 +256,19 @@ def _masses(attached: Floats, first: int) -> Iterator[bytes]:
         yield f"*MASS,ELSET=A{k}\n{attached[node]:.12g}\n".encode()
 
 
-def _boundary(held: Bools) -> str:
+def _boundary(fixed: Bools) -> str:
     lines = ["*BOUNDARY\n"]
     for axis in range(6):
-        lines += [f"{node + 1},{axis + 1},{axis + 1}\n" for node in np.flatnonzero(held[:, axis])]
+        lines += [f"{node + 1},{axis + 1},{axis + 1}\n" for node in np.flatnonzero(fixed[:, axis])]
     return "".join(lines)
 
 
 def _static(case: Case) -> str:
     lines = ["*STEP\n*STATIC\n"]
-    if case.moved is not None:
+    if case.prescribed is not None:
         lines.append("*BOUNDARY,OP=MOD\n")
-        for node, axis in np.argwhere(case.held):
-            value = case.moved[node, axis]
+        for node, axis in np.argwhere(case.fixed):
+            value = case.prescribed[node, axis]
             lines.append(f"{node + 1},{axis + 1},{axis + 1},{value:.12g}\n")
     lines += _loads(case, 1.0)
     lines.append(
@@ -279,7 +279,7 @@ def _static(case: Case) -> str:
 
 def _loads(case: Case, scale: float) -> list[str]:
     lines = ["*CLOAD,OP=NEW\n"]
-    for node, axis in np.argwhere((case.loads != 0.0) & ~case.held):
+    for node, axis in np.argwhere((case.loads != 0.0) & ~case.fixed):
         lines.append(f"{node + 1},{axis + 1},{scale * case.loads[node, axis]:.12g}\n")
     lines.append("*DLOAD,OP=NEW\n")
     if any(case.acceleration):

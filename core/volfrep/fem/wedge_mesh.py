@@ -74,9 +74,9 @@ class WedgeMesh:
         alone = loaded & (whole == 0.0)
         result[self.outer[alone]] = loads[alone]
         share = taking[:, None] / np.maximum(whole[rows], 1e-300)
-        felt = share[:, :, None] * loads[rows]  # (t, 3, 3): what each corner gives
-        mean = felt.mean(axis=1, keepdims=True)
-        traction = (3.0 * mean + 12.0 * (felt - mean)) / area[:, None, None]
+        nodal = share[:, :, None] * loads[rows]  # (t, 3, 3): what each corner gives
+        mean = nodal.mean(axis=1, keepdims=True)
+        traction = (3.0 * mean + 12.0 * (nodal - mean)) / area[:, None, None]
 
         piece = np.flatnonzero(taking[self.of] > 0.0)
         middles = self.elements[piece, 9:12]

@@ -36,7 +36,7 @@ from ..io.write.vtu import write_vtu
 from ..loads.load_cases import LoadCases, with_weights
 from ..mechanics.catalogue import joint_law
 from ..mechanics.elements import PARTS, solid_stiffness
-from ..mechanics.endless import strains_held
+from ..mechanics.endless import stretched_strains
 from ..mechanics.frame import stiffened
 from ..mechanics.joint_fit import periodic_frame
 from ..mesh.triangle_mesh import TriangleMesh
@@ -52,7 +52,7 @@ from ..voxels.multigrid import elements_at
 from ..voxels.shares import VoxelGrid, fill_grid, grid_of
 from .figures.properties import lattice_properties
 from .infill import Infill
-from .solving import moved_rows
+from .solving import displacement_rows
 
 #: So many elements, if the user does not say how large they are; where cells are more, one a cell
 #: up to the most.
@@ -244,9 +244,11 @@ def _heat(model: ContinuumModel, loads: LoadCases) -> tuple[Floats | None, list[
     """(n,) temperatures, and what each region has and gives; None and nothing without heat."""
     if not loads.heat or loads.conductivity is None:
         return None, []
-    held = [(one.region, one.temperature) for one in loads.heat if one.temperature is not None]
+    region_temperatures = [
+        (one.region, one.temperature) for one in loads.heat if one.temperature is not None
+    ]
     flows = [(one.region, one.power) for one in loads.heat if one.power is not None]
-    warm, given = conduct(model, held, loads.conductivity, flows)
+    warm, given = conduct(model, region_temperatures, loads.conductivity, flows)
     gives = iter(given.tolist())
     found = []
     for one in loads.heat:
@@ -377,9 +379,9 @@ def _cells_filled(infill: Infill, low: Floats, fine: Ints, step: Floats) -> Floa
             points = mapping.to_lattice(points)
         at = np.floor((points - origin) / cells.cell_size).astype(np.int64)
         inside = ((at >= 0) & (at < active.shape)).all(axis=1)
-        held = np.zeros(len(at))
-        held[inside] = active[tuple(at[inside].T)]
-        result[plane] = held.reshape(int(fine[1]), int(fine[2]))
+        filled = np.zeros(len(at))
+        filled[inside] = active[tuple(at[inside].T)]
+        result[plane] = filled.reshape(int(fine[1]), int(fine[2]))
     return result
 
 
@@ -512,7 +514,7 @@ def _of_bare(infill: Infill, law: CellLaw) -> float:
 def _notes(infill: Infill, model: ContinuumModel) -> list[str]:
     """What the user should know of the figures."""
     cell = infill.spec.kind.cube
-    bent = cell is not None and strains_held(cell) < 6
+    bent = cell is not None and stretched_strains(cell) < 6
     error = BENT if bent else STRETCHED
     found = []
     if model.across < FEW_CELLS:
@@ -543,7 +545,7 @@ def homogenised_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
                 f"moves {case['displacement_mm']:.4g} mm; work {case['work_nmm'] / 2:.4g} N mm",
             )
         )
-        rows += moved_rows(case)
+        rows += displacement_rows(case)
         if case["lattice_use"] is not None:
             at = ", ".join(f"{value:.4g}" for value in case["lattice_use_at"])
             rows.append(("", f"lattice up to {case['lattice_use']:.0%} of its yield, at ({at}) mm"))

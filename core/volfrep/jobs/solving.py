@@ -298,7 +298,7 @@ def _notes(
     return found
 
 
-def moved_rows(case: Mapping[str, Any]) -> list[tuple[str, str]]:
+def displacement_rows(case: Mapping[str, Any]) -> list[tuple[str, str]]:
     """How far the loads of a case move, as lines for a user."""
     return [
         ("", f"'{load['name']}' moves by ({', '.join(f'{x:.4g}' for x in load['moved_mm'])}) mm")
@@ -327,7 +327,7 @@ def solving_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
                 f"{limit['compliance_nmm'] / 2:.4g} extrapolated",
             )
         ]
-        rows += moved_rows(case)
+        rows += displacement_rows(case)
         stress = case["stress_mpa"]
         parts = [f"nominal stress {stress['all']:.4g} MPa on all but {PEAKS:.1%} of the volume"]
         parts += [

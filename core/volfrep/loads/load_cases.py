@@ -180,9 +180,9 @@ class LoadCase:
             )
         if not self.supports:
             raise VolfrepError(f"The load case '{self.name}' has no support: the part would fly.")
-        moved = any(value for support in self.supports for value in support.displacement)
+        displaced = any(value for support in self.supports for value in support.displacement)
         strained = self.expansion or self.heated
-        if not (self.loads or any(self.acceleration) or moved or strained):
+        if not (self.loads or any(self.acceleration) or displaced or strained):
             raise VolfrepError(
                 f"The load case '{self.name}' has no load: give a force, a moment, a pressure, an "
                 "acceleration, a displacement or a temperature."
@@ -243,12 +243,12 @@ def with_weights(loads: LoadCases) -> LoadCases:
     cases = []
     for case in loads.cases:
         x, y, z = case.acceleration
-        pulls = tuple(
+        weights = tuple(
             Force(body.region, (1e-6 * body.mass * x, 1e-6 * body.mass * y, 1e-6 * body.mass * z),
                   name=body.name)
             for body in loads.masses
         )  # fmt: skip
-        cases.append(replace(case, loads=case.loads + pulls) if any((x, y, z)) else case)
+        cases.append(replace(case, loads=case.loads + weights) if any((x, y, z)) else case)
     return replace(loads, cases=tuple(cases))
 
 

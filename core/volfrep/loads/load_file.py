@@ -219,9 +219,9 @@ class _Reader:
             self._load(load, f"{where}, load {j}", f"load {j}")
             for j, load in enumerate(_tables(table, "load", where), 1)
         )
-        pull = (0.0, 0.0, 0.0)
+        acceleration = (0.0, 0.0, 0.0)
         if "acceleration" in table:
-            pull = _vector(table["acceleration"], "acceleration", f"{where}, acceleration")
+            acceleration = _vector(table["acceleration"], "acceleration", f"{where}, acceleration")
         heated = None
         if table.get("temperature") == "heat":
             heated = self._coefficient(where), self.reference
@@ -234,7 +234,7 @@ class _Reader:
         if len(cones) > 1:
             raise VolfrepError(f"{where}: {len(cones)} loads have a cone: give it to one.")
         with _at(where):
-            case = LoadCase(name, common + own, loads, pull, strain, heated)
+            case = LoadCase(name, common + own, loads, acceleration, strain, heated)
             for j, angle in cones:
                 if isinstance(angle, bool) or not isinstance(angle, (int, float)):
                     raise VolfrepError(f"{where}, cone: {angle!r} is no number of degrees.")
@@ -272,7 +272,7 @@ class _Reader:
                 f"{where}: give either fixed = true, or displacements along some of x, y and z, "
                 "such as x = 0."
             )
-        moved = [
+        displacement = [
             _quantity(table[axis], "length", f"{where}, {axis}") if axis in axes else None
             for axis in "xyz"
         ]
@@ -281,7 +281,12 @@ class _Reader:
         with _at(where):
             if fixed:
                 return Support(region, turns=turns, name=_name(table, name, where))
-            return Support(region, (moved[0], moved[1], moved[2]), turns, _name(table, name, where))
+            return Support(
+                region,
+                (displacement[0], displacement[1], displacement[2]),
+                turns,
+                _name(table, name, where),
+            )
 
     def _load(self, table: Mapping[str, Any], where: str, name: str) -> Load:
         _known(table, _LOAD, where)

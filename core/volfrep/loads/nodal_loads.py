@@ -76,15 +76,15 @@ class NodalCase:
 
     Attributes:
         name: the load case's.
-        held: (n, 6) bool, what is prescribed.
-        moved: (n, 6) float64, mm: to what; 0 elsewhere.
+        fixed: (n, 6) bool, what is prescribed.
+        prescribed: (n, 6) float64, mm: to what; 0 elsewhere.
         loads: (n, 6) float64, N and N mm.
         acceleration: (3,) float64, mm/s2; weights are the solver's to add, who knows masses.
     """
 
     name: str
-    held: Bools
-    moved: Floats
+    fixed: Bools
+    prescribed: Floats
     loads: Floats
     acceleration: Floats
 
@@ -99,17 +99,17 @@ def nodal_case(body: Body, case: LoadCase) -> NodalCase:
         VolfrepError: nothing of the body lies in a region, a load cannot act there, or two supports
             contradict each other.
     """
-    held, moved = _held(body, case)
+    fixed, prescribed = _constraints(body, case)
     if case.expansion:
         middle = 0.5 * (body.nodes.min(axis=0) + body.nodes.max(axis=0))
-        moved[:, :3] -= np.where(held[:, :3], case.expansion * (body.nodes - middle), 0.0)
+        prescribed[:, :3] -= np.where(fixed[:, :3], case.expansion * (body.nodes - middle), 0.0)
     loads = np.zeros((len(body.nodes), 6))
     for load in case.loads:
         try:
             loads += nodal_loads(body, load)
         except VolfrepError as error:
             raise VolfrepError(f"Load case '{case.name}', '{load.name}': {error}") from error
-    return NodalCase(case.name, held, moved, loads, np.array(case.acceleration, float))
+    return NodalCase(case.name, fixed, prescribed, loads, np.array(case.acceleration, float))
 
 
 def nodal_loads(body: Body, load: Load) -> Floats:
@@ -203,9 +203,9 @@ def resultant(
     return loads[:, :3].sum(axis=0), moment
 
 
-def _held(body: Body, case: LoadCase) -> tuple[Bools, Floats]:
-    held = np.zeros((len(body.nodes), 6), bool)
-    moved = np.zeros((len(body.nodes), 6))
+def _constraints(body: Body, case: LoadCase) -> tuple[Bools, Floats]:
+    fixed = np.zeros((len(body.nodes), 6), bool)
+    prescribed = np.zeros((len(body.nodes), 6))
     for support in case.supports:
         try:
             nodes = nodes_in(body, support.region)
@@ -214,20 +214,20 @@ def _held(body: Body, case: LoadCase) -> tuple[Bools, Floats]:
         for axis, value in enumerate(support.displacement):
             if value is None:
                 continue
-            other = nodes[held[nodes, axis] & (moved[nodes, axis] != value)]
+            other = nodes[fixed[nodes, axis] & (prescribed[nodes, axis] != value)]
             if len(other):
                 raise VolfrepError(
                     f"Load case '{case.name}': '{support.name}' moves the node at "
                     f"{_place(body, int(other[0]))} by {value:g} mm along {'xyz'[axis]}, another "
-                    f"support by {moved[other[0], axis]:g} mm: keep one of them."
+                    f"support by {prescribed[other[0], axis]:g} mm: keep one of them."
                 )
-            held[nodes, axis] = True
-            moved[nodes, axis] = value
+            fixed[nodes, axis] = True
+            prescribed[nodes, axis] = value
         turning = nodes[body.turns[nodes]]
         for axis, free in enumerate(support.turns):
             if not free:
-                held[turning, 3 + axis] = True
-    return held, moved
+                fixed[turning, 3 + axis] = True
+    return fixed, prescribed
 
 
 def _reaching(body: Body, region: Region) -> Bools:

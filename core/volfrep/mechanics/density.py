@@ -168,8 +168,8 @@ def _copies(bodies: Primitives, shifts: Floats) -> Primitives:
     """The bodies of one period, shifted by every row."""
     row = np.tile(np.arange(len(bodies)), len(shifts))
     taken = bodies.take(row)
-    moved = taken.middle + np.repeat(shifts, len(bodies), axis=0)
-    return Primitives(moved, taken.direction, taken.half_length, taken.radius, taken.slope)
+    shifted = taken.middle + np.repeat(shifts, len(bodies), axis=0)
+    return Primitives(shifted, taken.direction, taken.half_length, taken.radius, taken.slope)
 
 
 def _neighbours(bodies: Primitives, copies: Primitives, fillet: float) -> tuple[Ints, Ints]:

@@ -86,7 +86,7 @@ def refuse_odd(cell: UnitCell) -> None:
         )
 
 
-def strains_held(cell: UnitCell) -> int:
+def stretched_strains(cell: UnitCell) -> int:
     """How many of the six strains stretch the struts of the endless lattice, were they hinged.
 
     All six: the lattice carries whatever comes by pulling and pressing its struts (it is stretching
@@ -103,13 +103,13 @@ def strains_held(cell: UnitCell) -> int:
     along = (endless.end - endless.start) / length[:, None]
     rows = np.arange(len(length))
     # The strut's elongation by its ends' displacements, and by a strain of the whole.
-    moved = np.zeros((len(length), len(endless.nodes), 3))
-    np.add.at(moved, (rows, endless.struts[:, 1]), along)
-    np.add.at(moved, (rows, endless.struts[:, 0]), -along)
+    compatibility = np.zeros((len(length), len(endless.nodes), 3))
+    np.add.at(compatibility, (rows, endless.struts[:, 1]), along)
+    np.add.at(compatibility, (rows, endless.struts[:, 0]), -along)
     root = np.sqrt(length)[:, None]
-    moved = moved.reshape(len(length), -1) / root
+    compatibility = compatibility.reshape(len(length), -1) / root
     strained = np.concatenate([along**2, along * np.roll(along, 1, axis=1)], axis=1) * root
-    left = strained - moved @ np.linalg.lstsq(moved, strained, rcond=1e-9)[0]
+    left = strained - compatibility @ np.linalg.lstsq(compatibility, strained, rcond=1e-9)[0]
     stiffness = np.linalg.eigvalsh(left.T @ left) / length.sum()
     return int((stiffness > _HINGED).sum())
 

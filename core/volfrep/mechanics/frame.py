@@ -101,7 +101,7 @@ def frame_tensor(
     return result
 
 
-def frame_pulls(frame: PeriodicFrame, radius: float, ends: Ends | None = None) -> Floats:
+def axial_forces(frame: PeriodicFrame, radius: float, ends: Ends | None = None) -> Floats:
     """(m, 6) forces that pull at struts with Young's modulus 1 under each unit strain, Voigt.
 
     Args:
@@ -140,8 +140,8 @@ def _strained(frame: PeriodicFrame, stiffness: Floats) -> tuple[Floats, Floats]:
     np.add.at(load, unknown, forces)
     values, vectors = np.linalg.eigh(matrix)
     kept = values > _NOTHING * values[-1]
-    moved = -vectors[:, kept] @ ((vectors[:, kept].T @ load) / values[kept, None])
-    return uniform, moved[unknown]
+    displacements = -vectors[:, kept] @ ((vectors[:, kept].T @ load) / values[kept, None])
+    return uniform, displacements[unknown]
 
 
 def stiffened(length: Floats, radius: float, ends: Ends) -> tuple[Floats, Floats]:
@@ -209,12 +209,12 @@ def _beam(length: Floats, radius: float, ends: Ends, section: Section, poisson: 
     area = np.pi * radius**2 * section.area
     inertia = np.pi * radius**4 / 4.0
     shear = 1.0 / (2.0 * (1.0 + poisson))
-    pull = ends.axial * area / length
+    axial = ends.axial * area / length
     twist = ends.bending * shear * 2.0 * inertia * section.torsion / length
     bend = ends.bending * inertia
     slack = 12.0 * bend / (shear * section.shear * ends.axial * area * length**2)
     matrix = np.zeros((len(length), 12, 12))
-    for first, value in ((0, pull), (3, twist)):
+    for first, value in ((0, axial), (3, twist)):
         matrix[:, first, first] = matrix[:, first + 6, first + 6] = value
         matrix[:, first, first + 6] = matrix[:, first + 6, first] = -value
     across = 12.0 * bend / length**3 / (1.0 + slack)

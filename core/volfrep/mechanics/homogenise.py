@@ -60,7 +60,7 @@ class Grid:
         nodes: their corners.
         system: the equations.
         strains: (cases, 6) the macroscopic strains, Voigt.
-        moved: (n, cases) what is added to the uniform strain, in voxels.
+        fluctuation: (n, cases) what is added to the uniform strain, in voxels.
         energy: (cases, cases) twice the energy of a cell for each pair of strains.
     """
 
@@ -68,7 +68,7 @@ class Grid:
     nodes: Nodes
     system: System
     strains: Floats
-    moved: Floats
+    fluctuation: Floats
     energy: Floats
 
     @property
@@ -271,16 +271,16 @@ def solve_grid(voxels: Voxels, poisson: float, *, cubic: bool) -> Grid:
     octants = 8 if voxels.octant else 1
     energy = strains @ solid_stiffness(1.0, poisson) @ strains.T * voxels.relative_density
     uniform = np.diag(energy) * voxels.along**3 / octants
-    moved = solve(system, -loads, uniform, free, look_back=look_back(voxels))
+    fluctuation = solve(system, -loads, uniform, free, look_back=look_back(voxels))
     # Quadratic in what the solution still lacks.
-    crossed = loads.T @ moved
-    inner = crossed + crossed.T + moved.T @ (system.matrix @ moved)
+    crossed = loads.T @ fluctuation
+    inner = crossed + crossed.T + fluctuation.T @ (system.matrix @ fluctuation)
     energy = energy + octants * inner / voxels.along**3
     if voxels.octant:
         # Strains of different symmetry about the mirrors have no energy in common.
         kinds = (strains[:, 3:] != 0) @ np.array([1, 2, 4])
         energy *= kinds[:, None] == kinds
-    return Grid(voxels, nodes, system, strains, moved, energy)
+    return Grid(voxels, nodes, system, strains, fluctuation, energy)
 
 
 def _free(nodes: Nodes, strains: Floats) -> Floats:

@@ -57,7 +57,7 @@ def stresses(grid: Grid, poisson: float) -> Stresses:
         parts = ((along + 2 * across) / 3, (along - across) / 1.5, 0.0)
         applied = np.array([parts, (0.0, 0.0, soft[3, 3])]).T
     strains = (CUBIC_STRAINS if len(grid.strains) == 3 else np.eye(6)).T @ applied  # (6, n)
-    moved = grid.moved @ applied
+    displacement = grid.fluctuation @ applied
     voxels = grid.voxels
     middle = np.full((len(voxels.index), 3), 0.5)
     weight = voxels.shares
@@ -66,7 +66,7 @@ def stresses(grid: Grid, poisson: float) -> Stresses:
     strain = np.empty((len(middle), 6, strains.shape[1]))
     for first in range(0, len(middle), 20_000):
         rows = slice(first, first + 20_000)
-        strain[rows] = strain_matrices(middle[rows]) @ moved[unknown[rows]]
+        strain[rows] = strain_matrices(middle[rows]) @ displacement[unknown[rows]]
     stress = solid_stiffness(1.0, poisson) @ (strain + strains)
     mises = von_mises(stress, axis=1)
     largest = np.array([_exceeded(column, weight, EXCEPTED) for column in mises.T])

@@ -388,9 +388,9 @@ def figures_of(found: Homogenised, solid: SolidMaterial | None) -> Figures:
 def _limits(found: Homogenised, poisson: float) -> dict[str, tuple[float, float]]:
     """Strength and shear strength, over the solid's yield stress, and their errors."""
     fine, coarse = (stresses(grid, poisson) for grid in (found.finest, found.coarser))
-    pull = [name in STRESSES[:3] for name in fine.names]
+    is_axial = [name in STRESSES[:3] for name in fine.names]
     result = {}
-    for name, which in (("strength", np.array(pull)), ("shear_strength", ~np.array(pull))):
+    for name, which in (("strength", np.array(is_axial)), ("shear_strength", ~np.array(is_axial))):
         best, before = (1.0 / part.largest[which].max() for part in (fine, coarse))
         result[name] = (float(best), float(abs(best - before) + 5e-3 * best))
     return result

@@ -53,8 +53,8 @@ def young(tensor: Floats, directions: Floats) -> Floats:
     unit = unit / np.linalg.norm(unit, axis=-1, keepdims=True)
     x, y, z = np.moveaxis(unit, -1, 0)
     # Engineering shear strains: a unit pull has stress n n, without factors.
-    pull = np.stack([x * x, y * y, z * z, y * z, x * z, x * y], axis=-1)
-    result: Floats = 1.0 / np.einsum("...i,ij,...j->...", pull, compliance(tensor), pull)
+    direction = np.stack([x * x, y * y, z * z, y * z, x * z, x * y], axis=-1)
+    result: Floats = 1.0 / np.einsum("...i,ij,...j->...", direction, compliance(tensor), direction)
     return result
 
 

@@ -130,7 +130,7 @@ def voxels_by_distance(
             rate = np.count_nonzero((filled > 0.0) & (filled < 1.0)) / count
             shift += (wanted - filled.sum() / count) / max(rate, 1e-12)
     parts = shares(shift)
-    held = parts.any(axis=1)
-    rows = np.concatenate([np.flatnonzero(full), cut[held]])
+    filled = parts.any(axis=1)
+    rows = np.concatenate([np.flatnonzero(full), cut[filled]])
     whole = np.arange(len(rows)) < np.count_nonzero(full)
-    return Voxels(index[rows], whole, parts[held], along, octant)
+    return Voxels(index[rows], whole, parts[filled], along, octant)

@@ -78,9 +78,13 @@ def load_picture(
         else:
             _add_force(stage, body, middle, load)
     if any(case.acceleration):
-        pull = np.array(case.acceleration)
+        acceleration = np.array(case.acceleration)
         _add_arrow(
-            stage, body, solid.bounds.mean(axis=0), pull, _text(case.acceleration, "g", 1 / 9806.65)
+            stage,
+            body,
+            solid.bounds.mean(axis=0),
+            acceleration,
+            _text(case.acceleration, "g", 1 / 9806.65),
         )
     stage.add_text(case.name, font_size=int(size[0] / 70), color="black")
     show_stage(stage, file, y_up=y_up, zoom=1.15)

@@ -146,6 +146,6 @@ def tubes(
     )
     first = np.arange(len(struts)) * _RINGS * _SIDES
     facets = (first[:, None, None] + pattern).reshape(-1, 3)
-    felt = values[:, :1] * (1.0 - share[:, :, 0]) + values[:, 1:] * share[:, :, 0]
-    shades = np.repeat(felt[:, :, None], _SIDES, axis=2)
+    shown = values[:, :1] * (1.0 - share[:, :, 0]) + values[:, 1:] * share[:, :, 0]
+    shades = np.repeat(shown[:, :, None], _SIDES, axis=2)
     return points.reshape(-1, 3), facets, shades.ravel()

@@ -101,9 +101,9 @@ def sizing_report(
         }
     if model.skin is not None:
         shells = model.skin.shells
-        moved = model.skin.of_middle(final.displacements[model.frame_nodes :])
-        felt = shells.stresses(moved)
-        result["skin_stress_mpa"] = [most_but_peaks(row, shells.area) for row in felt.T]
+        displacements = model.skin.of_middle(final.displacements[model.frame_nodes :])
+        stress = shells.stresses(displacements)
+        result["skin_stress_mpa"] = [most_but_peaks(row, shells.area) for row in stress.T]
     return result
 
 
@@ -190,8 +190,8 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         )
     if "skin_stress_mpa" in report:
         most = max(report["skin_stress_mpa"])
-        felt = (proof or {}).get("skin_stress_mpa")
-        told = f", {max(felt):.4g} MPa in CalculiX" if felt else ""
+        stress = (proof or {}).get("skin_stress_mpa")
+        told = f", {max(stress):.4g} MPa in CalculiX" if stress else ""
         rows.append(("skin stress", f"{most:.4g} MPa on all but {PEAKS:.1%} of its area{told}"))
     if "skin" in report:
         skin, held = report["skin"], report["skin"]["there_over_asked"]

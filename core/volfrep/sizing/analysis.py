@@ -73,8 +73,8 @@ class Problem:
         watched: (nodes,) bool, where displacements are limited.
         smoother: (n, n) by which each step's radii are evened out with their neighbours'; None for
             not at all.
-        felt: (m,) how many times as stressed struts are as their beams say, where another solver
-            has found more; None for as they say.
+        stress_factor: (m,) how many times as stressed struts are as their beams say, where
+            another solver has found more; None for as they say.
         skin: what of the variables is the skin's; None where it is not varied.
         around: the skin, varied or not, whose nodes are the structure's last ones; None for none.
         groups: (n,) a number that radii have in common which are to be equal, as their bounds are;
@@ -88,7 +88,7 @@ class Problem:
     high: Floats
     watched: Bools
     smoother: csr_matrix | None = None
-    felt: Floats | None = None
+    stress_factor: Floats | None = None
     skin: SkinThickness | None = None
     around: SkinModel | None = None
     groups: Ints | None = None
@@ -222,17 +222,17 @@ def analyse(
     """
     structure, beams, skin = problem.structure_of(radii), problem.structure.beams, problem.skin
     of_struts = problem.radii.of_struts(radii)
-    moved, factors = structure.displacements(of_struts, problem.cases)
-    forces = structure.forces(of_struts, moved)
+    displacements, factors = structure.displacements(of_struts, problem.cases)
+    forces = structure.forces(of_struts, displacements)
     loads = structure.all_loads(of_struts, problem.cases)
-    compliance = np.einsum("nik,nik->k", loads, moved)
+    compliance = np.einsum("nik,nik->k", loads, displacements)
     weakest = problem.radii.weakest(radii)
     stress = stresses(beams, weakest, forces).mises
-    if problem.felt is not None:
-        stress = stress * problem.felt[:, None, None]
+    if problem.stress_factor is not None:
+        stress = stress * problem.stress_factor[:, None, None]
     critical = buckling_loads(beams, weakest, len(structure.nodes))
     buckling = np.maximum(-forces[:, 0], 0.0) / critical[:, None]
-    size = np.where(problem.watched[:, None], np.linalg.norm(moved[:, :3], axis=1), 0.0)
+    size = np.where(problem.watched[:, None], np.linalg.norm(displacements[:, :3], axis=1), 0.0)
 
     uses: dict[str, float] = {}
     worst: dict[str, tuple[int, int]] = {}
@@ -240,11 +240,11 @@ def analyse(
         strut, _, case = np.unravel_index(int(np.argmax(stress)), stress.shape)
         uses["stress"] = float(stress.max()) / limits.stress
         worst["stress"] = int(case), int(strut)
-    on_skin = None if skin is None else skin.stresses(radii, moved)
+    on_skin = None if skin is None else skin.stresses(radii, displacements)
     if limits.skin_stress is not None and skin is not None and on_skin is not None:
-        felt = skin.felt(on_skin)
-        worst_shell = int(np.argmax(felt))
-        uses["skin stress"] = float(felt[worst_shell]) / limits.skin_stress
+        skin_stress = skin.largest(on_skin)
+        worst_shell = int(np.argmax(skin_stress))
+        uses["skin stress"] = float(skin_stress[worst_shell]) / limits.skin_stress
         worst["skin stress"] = int(np.argmax(on_skin[worst_shell])), worst_shell
     if limits.buckling is not None:
         strut, case = np.unravel_index(int(np.argmax(buckling)), buckling.shape)
@@ -256,8 +256,8 @@ def analyse(
         worst["displacement"] = int(case), int(node)
     frequency, mode = np.nan, None
     if limits.frequency is not None:
-        held = problem.cases[0].held
-        found, modes = structure.modes(of_struts, held, 1, factor=factors[0], tolerance=1e-6)
+        fixed = problem.cases[0].fixed
+        found, modes = structure.modes(of_struts, fixed, 1, factor=factors[0], tolerance=1e-6)
         frequency, mode = float(found[0]), modes
         uses["frequency"] = limits.frequency / frequency
         worst["frequency"] = -1, -1
@@ -265,16 +265,16 @@ def analyse(
     if limits.frame_buckling is not None:
         columns, count = columns_of(beams, of_struts), _MODES if with_changes else 1
         for k, factor in enumerate(factors):
-            pressed = _pressed(problem, radii, moved[:, :, k])
+            pressed = _pressed(problem, radii, displacements[:, :, k])
             together.append(structure.buckling(columns, forces[:, :, k], factor, count, pressed))
         first = int(np.argmin([found[0] for found, _ in together]))
         uses["frame buckling"] = limits.frame_buckling / float(together[first][0][0])
         bent = structure.forces(of_struts, together[first][1][:, :, :1])
-        felt = np.einsum("mfk,mf->m", energies(bent, bent), columns.flexibility)
-        worst["frame buckling"] = first, int(np.argmax(felt))
+        energy = np.einsum("mfk,mf->m", energies(bent, bent), columns.flexibility)
+        worst["frame buckling"] = first, int(np.argmax(energy))
     factor_of = np.array([found[0] for found, _ in together] or [np.nan] * len(factors))
     analysis = Analysis(
-        radii, problem.radii.volume(radii), compliance, moved, size.max(axis=0), forces,
+        radii, problem.radii.volume(radii), compliance, displacements, size.max(axis=0), forces,
         stress, buckling, frequency, factor_of, uses, worst, on_skin,
     )  # fmt: skip
     if not with_changes:
@@ -301,12 +301,12 @@ def analyse(
         result = np.zeros((len(radii), len(problem.cases)))
         for k, case in enumerate(problem.cases):
             if any(case.acceleration):
-                pull = np.zeros(moved.shape[:2])
-                pull[:, :3] = case.acceleration
-                result[:, k] = _mass_change(problem, radii, other[:, :, k], pull)
+                acceleration = np.zeros(displacements.shape[:2])
+                acceleration[:, :3] = case.acceleration
+                result[:, k] = _mass_change(problem, radii, other[:, :, k], acceleration)
         return result
 
-    of_displacement = of_frequency = moved_uses = None
+    of_displacement = of_frequency = displacement_uses = None
     if limits.displacement is not None:
         columns_at, far = [], []
         for k in range(len(factors)):
@@ -314,19 +314,19 @@ def analyse(
                 columns_at.append(k)
                 far.append(int(node))
         at, every = np.array(columns_at), np.arange(len(far))
-        way = np.zeros((len(moved), 6, len(far)))
+        way = np.zeros((len(displacements), 6, len(far)))
         reach = np.maximum(size[far, at], 1e-300)
-        way[far, :3, every] = moved[far, :3, at] / reach[:, None]
+        way[far, :3, every] = displacements[far, :3, at] / reach[:, None]
         back = structure.answers([factors[k] for k in at], way)
         virtual = structure.forces(of_struts, back)
-        of_displacement = change(virtual, forces[:, :, at], back, moved[:, :, at])
+        of_displacement = change(virtual, forces[:, :, at], back, displacements[:, :, at])
         for row, k in enumerate(columns_at):
-            pull = np.zeros(moved.shape[:2])
-            pull[:, :3] = problem.cases[k].acceleration
-            if pull.any():
-                of_displacement[:, row] += _mass_change(problem, radii, back[:, :, row], pull)
+            uniform = np.zeros(displacements.shape[:2])
+            uniform[:, :3] = problem.cases[k].acceleration
+            if uniform.any():
+                of_displacement[:, row] += _mass_change(problem, radii, back[:, :, row], uniform)
         of_displacement = of_displacement / limits.displacement
-        moved_uses = size[far, at] / limits.displacement
+        displacement_uses = size[far, at] / limits.displacement
     if limits.frequency is not None and mode is not None:
         strained = structure.forces(of_struts, mode)
         rate = (2.0 * np.pi * frequency) ** 2
@@ -342,26 +342,28 @@ def analyse(
         for place, mode in zip(found[lowest], modes.transpose(2, 0, 1)[lowest], strict=True):
             own = forces[:, :, k]
             stiffer = _columns_change(problem, radii, place * own, mode)
-            turned_skin, pulled_skin = _pressed_change(problem, radii, moved[:, :, k], mode)
+            turned_skin, skin_load = _pressed_change(problem, radii, displacements[:, :, k], mode)
             stiffer = stiffer + place * turned_skin
             strain = place * columns.turned_by(place * own, mode)
-            way, held_by = beams.strained(columns.flexibility, strain)
-            pull = np.zeros(moved.shape[:2])
-            np.add.at(pull, beams.struts[:, 0], way[:, 0])
-            np.add.at(pull, beams.struts[:, 1], way[:, 1])
-            pull += place * pulled_skin
-            back = structure.answers(factors[k : k + 1], pull[:, :, None])
-            virtual = structure.forces(of_struts, back) - held_by[:, :, None]
-            more = change(virtual, forces[:, :, k : k + 1], back, moved[:, :, k : k + 1])[:, 0]
+            way, initial = beams.strained(columns.flexibility, strain)
+            nodal = np.zeros(displacements.shape[:2])
+            np.add.at(nodal, beams.struts[:, 0], way[:, 0])
+            np.add.at(nodal, beams.struts[:, 1], way[:, 1])
+            nodal += place * skin_load
+            back = structure.answers(factors[k : k + 1], nodal[:, :, None])
+            virtual = structure.forces(of_struts, back) - initial[:, :, None]
+            only = slice(k, k + 1)
+            more = change(virtual, forces[:, :, only], back, displacements[:, :, only])[:, 0]
             if any(problem.cases[k].acceleration):
                 everywhere = np.repeat(back, len(problem.cases), axis=2)
                 more = more + heavier(everywhere)[:, k]
             of_frame.append(-(stiffer + more) * asked / place**2)
-    of_compliance = change(forces, forces, moved, moved) + 2.0 * heavier(moved)
+    of_compliance = change(forces, forces, displacements, displacements)
+    of_compliance = of_compliance + 2.0 * heavier(displacements)
     return analysis, Changes(
         of_compliance, of_displacement, of_frequency,
         np.stack(of_frame, axis=1) if of_frame else None,
-        np.concatenate(frame_uses) if of_frame else None, moved_uses,
+        np.concatenate(frame_uses) if of_frame else None, displacement_uses,
     )  # fmt: skip
 
 
@@ -388,14 +390,14 @@ def _columns_change(problem: Problem, radii: Floats, forces: Floats, mode: Float
     """(n,) derivative of mode K mode to the radii at the nodes, under the same forces (m, 6)."""
     beams, of_struts = problem.structure.beams, problem.radii.of_struts(radii)
 
-    def felt(radii: Floats) -> Floats:
+    def work(radii: Floats) -> Floats:
         return columns_of(beams, radii).work(forces, mode)
 
     result = np.empty(of_struts.shape)
     for end in (0, 1):
         step = np.zeros(of_struts.shape)
         step[:, end] = 1e-4 * of_struts[:, end]
-        result[:, end] = (felt(of_struts + step) - felt(of_struts - step)) / (2.0 * step[:, end])
+        result[:, end] = (work(of_struts + step) - work(of_struts - step)) / (2.0 * step[:, end])
     of_all, skin = problem.radii.to_nodes(result), problem.skin
     if skin is not None:
         bent = mode[:, :, None]
@@ -403,34 +405,34 @@ def _columns_change(problem: Problem, radii: Floats, forces: Floats, mode: Float
     return of_all
 
 
-def _pressed(problem: Problem, radii: Floats, moved: Floats) -> Floats | None:
+def _pressed(problem: Problem, radii: Floats, displacements: Floats) -> Floats | None:
     """(c, 6, 6) what the forces in the skin add to its stiffness, of displacements (nodes, 6)."""
     if problem.around is None:
         return None
-    return problem.around.pressed(moved[problem.skin_first :], problem.shells(radii))
+    return problem.around.pressed(displacements[problem.skin_first :], problem.shells(radii))
 
 
 def _pressed_change(
-    problem: Problem, radii: Floats, moved: Floats, mode: Floats
+    problem: Problem, radii: Floats, displacements: Floats, mode: Floats
 ) -> tuple[Floats, Floats]:
     """Derivatives of what the skin's forces do in a mode (nodes, 6).
 
     Returns:
         (n,) to the variables, displacements as they are; and (nodes, 6) to the displacements.
     """
-    own, pull = np.zeros(len(radii)), np.zeros(moved.shape)
+    own, nodal = np.zeros(len(radii)), np.zeros(displacements.shape)
     around, shells = problem.around, problem.shells(radii)
     if around is None or shells is None:
-        return own, pull
+        return own, nodal
     first = problem.skin_first
-    felt = shells.pressed_work(around.of_middle(mode[first:, :, None])[:, :, 0])
+    work = shells.pressed_work(around.of_middle(mode[first:, :, None])[:, :, 0])
     if problem.skin is not None:
-        even = shells.in_plane(around.of_middle(moved[first:, :, None]))[:, :, 0]
-        own = problem.skin.to_variables(radii, (felt * even).sum(axis=1)[:, None])[:, 0]
+        even = shells.in_plane(around.of_middle(displacements[first:, :, None]))[:, :, 0]
+        own = problem.skin.to_variables(radii, (work * even).sum(axis=1)[:, None])[:, 0]
     middle = np.zeros((len(around.middle), 6))
-    np.add.at(middle, shells.triangles, shells.pulled_by(felt))
-    pull[first:] = around.to_outside(middle)
-    return own, pull
+    np.add.at(middle, shells.triangles, shells.pressed_gradient(work))
+    nodal[first:] = around.to_outside(middle)
+    return own, nodal
 
 
 def _mass_change(problem: Problem, radii: Floats, left: Floats, right: Floats) -> Floats:
@@ -441,7 +443,7 @@ def _mass_change(problem: Problem, radii: Floats, left: Floats, right: Floats) -
     beams, of_struts = problem.structure.beams, problem.radii.of_struts(radii)
     first, second = beams.struts.T
 
-    def felt(radii: Floats) -> Floats:
+    def work(radii: Floats) -> Floats:
         one, between, two = beams.mass(radii)
         return np.asarray(
             np.einsum("mi,mij,mj->m", left[first], one, right[first])
@@ -454,7 +456,7 @@ def _mass_change(problem: Problem, radii: Floats, left: Floats, right: Floats) -
     for end in (0, 1):
         step = np.zeros(of_struts.shape)
         step[:, end] = 1e-4 * of_struts[:, end]
-        change = felt(of_struts + step) - felt(of_struts - step)
+        change = work(of_struts + step) - work(of_struts - step)
         result[:, end] = change / (2.0 * step[:, end])
     of_all, skin = problem.radii.to_nodes(result), problem.skin
     if skin is not None:

@@ -172,15 +172,15 @@ class Factored:
     free: Bools
     solve: Callable[[Floats], Floats]
 
-    def displacements(self, loads: Floats, moved: Floats | None = None) -> Floats:
-        """(n, 6, k) of loads (n, 6, k), N and N mm; `moved` says how what is held is moved.
+    def displacements(self, loads: Floats, prescribed: Floats | None = None) -> Floats:
+        """(n, 6, k) of loads (n, 6, k), N and N mm; `prescribed` says how what is held is moved.
 
         Raises:
             VolfrepError: a part of the structure can move without resistance.
         """
         right = self.pattern.ordered(loads)
-        if moved is not None:
-            given = self.pattern.ordered(moved) * ~self.free[:, None]
+        if prescribed is not None:
+            given = self.pattern.ordered(prescribed) * ~self.free[:, None]
             right = right - self.whole @ given
             right[~self.free] = given[~self.free]
         else:
@@ -197,20 +197,20 @@ class Factored:
         return self.pattern.restored(result)
 
 
-def factorise(pattern: BlockPattern, whole: sparse.csc_matrix, held: Bools) -> Factored:
+def factorise(pattern: BlockPattern, whole: sparse.csc_matrix, fixed: Bools) -> Factored:
     """Factor a stiffness.
 
     Args:
         pattern: of the matrix.
         whole: its numbers, of `BlockPattern.matrix`.
-        held: (n, 6) bool, what neither moves nor turns (or is moved by what is given).
+        fixed: (n, 6) bool, what neither moves nor turns (or is moved by what is given).
 
     Raises:
         VolfrepError: a part of the structure can move without resistance.
     """
     diagonal = whole.diagonal()
     # What nothing resists because nothing is there (nodes without struts) is held, too.
-    free = (pattern.ordered(held.astype(float)) == 0.0) & (diagonal > 0)
+    free = (pattern.ordered(fixed.astype(float)) == 0.0) & (diagonal > 0)
     matrix = mask_fixed(whole, free)
     solve = _by_cholesky(matrix)
     if solve is None:

@@ -29,9 +29,9 @@ from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
 from .analysis import Problem
 from .node_radii import ComesOut, NodeRadii, largest_radii
-from .skin import NO_FEET, Feet, SkinModel, ties_to
+from .skin import NO_FEET, Feet, SkinModel, constraints_to
 from .skin_thickness import SkinThickness, control_points, shares_of, with_skin
-from .structure import NO_TIES, Structure
+from .structure import NO_CONSTRAINTS, Structure
 from .symmetry import Mirrors
 from .tapered_beams import Elastic, beams_of, end_table
 from .union_volume import union_volume
@@ -199,12 +199,12 @@ def sizing_model(
         biggest = max(biggest, float(shape.of_struts(largest).max()))
     table = end_table(ends_law(cell, cell_size, "square"), smallest, biggest)
     joined = ~(clipped.on_wall & alone)[struts]
-    nodes, ties, blocks = frame.nodes, NO_TIES, None
+    nodes, constraints, blocks = frame.nodes, NO_CONSTRAINTS, None
     facets = np.empty((0, 3), np.int64)
     places = nodes
     if skin is not None:
         tied = np.flatnonzero(on_wall)
-        ties = ties_to(skin, nodes[tied], tied, len(nodes))
+        constraints = constraints_to(skin, nodes[tied], tied, len(nodes))
         blocks = replace(
             skin.blocks,
             rows=skin.blocks.rows + len(nodes),
@@ -214,7 +214,7 @@ def sizing_model(
         places = np.concatenate([nodes, skin.outside.vertices])
         nodes = places
     beams = beams_of(nodes, struts, stuff, joined=joined, section=SQUARE_SECTION, ends=table)
-    structure = Structure(nodes, beams, ties, blocks)
+    structure = Structure(nodes, beams, constraints, blocks)
 
     # What can be held and loaded: struts' nodes that are there, and the skin's.
     there = np.zeros(len(nodes), bool)
@@ -235,10 +235,18 @@ def sizing_model(
     for case in cases:
         chosen = case if skin is None or solid is None else _on_skin(case, solid, body)
         nodal = nodal_case(body, chosen)
-        fixed, loads, moved = (np.zeros((len(nodes), 6), kind) for kind in (bool, float, float))
-        fixed[body_rows], loads[body_rows], moved[body_rows] = nodal.held, nodal.loads, nodal.moved
+        fixed, loads, prescribed = (
+            np.zeros((len(nodes), 6), kind) for kind in (bool, float, float)
+        )
+        fixed[body_rows], loads[body_rows], prescribed[body_rows] = (
+            nodal.fixed,
+            nodal.loads,
+            nodal.prescribed,
+        )
         x, y, z = nodal.acceleration.tolist()
-        laid.append(Case(fixed, loads, moved if moved.any() else None, (x, y, z), nodal.name))
+        laid.append(
+            Case(fixed, loads, prescribed if prescribed.any() else None, (x, y, z), nodal.name)
+        )
     if masses:
         own = _attached(masses, cases[0], body, solid if skin is not None else None)
         attached = np.zeros(len(nodes))
@@ -294,7 +302,11 @@ def with_sized_skin(
     whole = np.concatenate([problem.low, first])
     structure = problem.structure
     structure = Structure(
-        structure.nodes, structure.beams, structure.ties, varied.blocks(whole), structure.attached
+        structure.nodes,
+        structure.beams,
+        structure.constraints,
+        varied.blocks(whole),
+        structure.attached,
     )
     smoother = problem.smoother
     if smoother is not None:
@@ -359,16 +371,16 @@ class _Found:
         return str(self.region)
 
 
-def held_facets(solid: TriangleMesh, cases: Sequence[LoadCase]) -> Bools:
+def fixed_facets(solid: TriangleMesh, cases: Sequence[LoadCase]) -> Bools:
     """(m,) which facets of the part no case lets move anywhere."""
     result = np.ones(len(solid.triangles), bool)
     for case in cases:
-        held = np.zeros(len(result), bool)
+        of_case = np.zeros(len(result), bool)
         for support in case.supports:
             if None not in support.displacement:
                 for region in simple_regions(support.region):
-                    held |= region.facets(solid, _tolerance(solid))
-        result &= held
+                    of_case |= region.facets(solid, _tolerance(solid))
+        result &= of_case
     return result
 
 

@@ -165,12 +165,12 @@ def stiffest(
         # Over a middle one: nodes that lie outside the domain, or nearly so, cost next to nothing.
         merit = np.clip(merit / max(float(np.median(merit)), 1e-300), *_MERITS)
         wanted = merit**_CRITERION
-        radii = _moved(problem, radii, problem.smoothed(radii * wanted) / radii, volume)
+        radii = _stepped(problem, radii, problem.smoothed(radii * wanted) / radii, volume)
     assert best is not None
     return Sized(best, tuple(steps), stopped, True, weights)
 
 
-def _moved(problem: Problem, radii: Floats, wanted: Floats, volume: float) -> Floats:
+def _stepped(problem: Problem, radii: Floats, wanted: Floats, volume: float) -> Floats:
     """Radii times what is wanted times one factor, within bounds and moves, at a volume."""
     low = np.maximum(problem.low, radii / _MOVE)
     high = np.minimum(problem.high, radii * _MOVE)
@@ -324,29 +324,29 @@ def next_radii(problem: Problem, found: Analysis, changes: Changes, limits: Limi
     # Radii that go beyond what they may in one step are left for the next one.
     low = np.maximum(problem.low, radii / _MOVE)
     high = np.minimum(problem.high, radii * _MOVE)
-    felt = np.zeros(found.stress.shape[:2])
+    use = np.zeros(found.stress.shape[:2])
     if limits.stress is not None:
-        felt = np.maximum(felt, (found.stress.max(axis=2) / limits.stress) ** _STRESSED)
+        use = np.maximum(use, (found.stress.max(axis=2) / limits.stress) ** _STRESSED)
     if limits.buckling is not None:
         used = (found.buckling.max(axis=1) * limits.buckling) ** _BUCKLED
-        felt = np.maximum(felt, used[:, None])
-    if felt.any():
+        use = np.maximum(use, used[:, None])
+    if use.any():
         entries = shape.ends.tocoo()
         part = entries.data > 0.3
         needed = np.zeros(len(radii))
-        np.maximum.at(needed, entries.col[part], felt.ravel()[entries.row[part]])
+        np.maximum.at(needed, entries.col[part], use.ravel()[entries.row[part]])
         low = np.clip(radii * needed, low, high)
     if limits.skin_stress is not None and problem.skin is not None:
         assert found.skin_stress is not None
-        shells = (problem.skin.felt(found.skin_stress) / limits.skin_stress) ** _STRESSED
+        shells = (problem.skin.largest(found.skin_stress) / limits.skin_stress) ** _STRESSED
         needed = np.zeros(len(radii))
         needed[problem.skin.radii :] = problem.skin.largest_near(shells)
         # What a strut that is as thick as it may be cannot bear, the skin about it takes.
         full = shape.of_struts(radii) >= _FULL * shape.of_struts(problem.high)
-        over = np.flatnonzero(full.all(axis=1) & (felt.max(axis=1) > 1.0))
+        over = np.flatnonzero(full.all(axis=1) & (use.max(axis=1) > 1.0))
         beams, nodes = problem.structure.beams, problem.structure.nodes
         near = problem.skin.nearest(nodes[beams.struts[over]].mean(axis=1))
-        needed_near = np.repeat(felt[over].max(axis=1) ** _BESIDE, near.shape[1])
+        needed_near = np.repeat(use[over].max(axis=1) ** _BESIDE, near.shape[1])
         np.maximum.at(needed, problem.skin.radii + near.ravel(), needed_near)
         low = np.clip(radii * needed, low, high)
     low = problem.most_alike(low)

@@ -51,21 +51,21 @@ class Proved:
 
     Attributes:
         figures: how far the two agree, as plain JSON values.
-        felt: (m,) how many times as stressed as their beams say the struts are there, 1 or more:
-            of those that are stressed most.
+        stress_factor: (m,) how many times as stressed as their beams say the struts are there,
+            1 or more: of those that are stressed most.
         skin: the skin's stress in each case, MPa, on all but a little of its area; none without.
     """
 
     figures: dict[str, Any]
-    felt: Floats
+    stress_factor: Floats
     skin: tuple[float, ...] = ()
 
     def uses(self, limits: Limits, final: Analysis) -> dict[str, float]:
         """By the name of each limit that CalculiX has a figure for, the share of it used there."""
         result = {}
-        felt = self.figures["largest_stress"]
-        if limits.stress is not None and felt is not None:
-            use = final.uses["stress"] * felt
+        ratio = self.figures["largest_stress"]
+        if limits.stress is not None and ratio is not None:
+            use = final.uses["stress"] * ratio
             # Without the strut that governs it is the least that there may be.
             if self.figures["worst_strut_compared"] or use > PROVED:
                 result["stress"] = use
@@ -100,8 +100,8 @@ def correct_problem(
     """
     used, wanted = proof.uses(limits, final), limits
     if used.get("stress", 0.0) > PROVED:
-        before = 1.0 if problem.felt is None else problem.felt
-        problem = replace(problem, felt=np.maximum(before, proof.felt))
+        before = 1.0 if problem.stress_factor is None else problem.stress_factor
+        problem = replace(problem, stress_factor=np.maximum(before, proof.stress_factor))
     if limits.displacement is not None and used["displacement"] > PROVED:
         ratio = used["displacement"] / final.uses["displacement"]
         wanted = replace(wanted, displacement=limits.displacement / ratio)
@@ -180,15 +180,15 @@ def prove_design(
     empty = ~_used(beams.struts, count)
     cases = []
     for case in problem.cases:
-        held, loads, moved = (np.zeros((total, 6), kind) for kind in (bool, float, float))
-        held[place[there]], loads[place[there]] = case.held[there], case.loads[there]
-        held[:count][empty] = True
-        if case.moved is not None:
-            moved[place[there]] = case.moved[there]
+        fixed, loads, prescribed = (np.zeros((total, 6), kind) for kind in (bool, float, float))
+        fixed[place[there]], loads[place[there]] = case.fixed[there], case.loads[there]
+        fixed[:count][empty] = True
+        if case.prescribed is not None:
+            prescribed[place[there]] = case.prescribed[there]
         if solid is not None:
-            _on_solid(solid, len(deck.nodes), held, loads, moved)
+            _on_solid(solid, len(deck.nodes), fixed, loads, prescribed)
         x, y, z = case.acceleration
-        cases.append(Case(held, loads, moved if moved.any() else None, (x, y, z)))
+        cases.append(Case(fixed, loads, prescribed if prescribed.any() else None, (x, y, z)))
     attached = None
     if problem.structure.attached is not None:
         attached = np.zeros(total)
@@ -196,7 +196,7 @@ def prove_design(
     modes = 3 if "frequency" in final.uses else 0
     # What is moved is no load.
     expected = None
-    if all(case.moved is None for case in cases):
+    if all(case.prescribed is None for case in cases):
         expected = np.where(np.isfinite(final.factors), final.factors, np.nan)
     found = solve_frame(
         deck, material.for_solver(), cases, skin=solid, more_nodes=more, attached=attached,
@@ -208,13 +208,15 @@ def prove_design(
     off = np.linalg.norm(theirs - mine, axis=(0, 1)) / np.linalg.norm(theirs, axis=(0, 1))
     own = stresses(beams, of_struts, final.forces)
     alone = np.abs(own.axial) + own.bending
-    summed = alone if problem.felt is None else alone * problem.felt[:, None, None]
-    felt = end_stresses(found, deck, beams, of_struts)
-    known = np.isfinite(felt)
-    there_most = np.where(known, felt, 0.0).max(axis=(1, 2))
+    summed = (
+        alone if problem.stress_factor is None else alone * problem.stress_factor[:, None, None]
+    )
+    stress = end_stresses(found, deck, beams, of_struts)
+    known = np.isfinite(stress)
+    there_most = np.where(known, stress, 0.0).max(axis=(1, 2))
     more = there_most / np.maximum(alone.max(axis=(1, 2)), 1e-300)
     more = np.where(there_most > TELLING * there_most.max(initial=0.0), np.maximum(more, 1.0), 1.0)
-    worst = float(felt[known].max() / summed.max()) if known.any() else None
+    worst = float(stress[known].max() / summed.max()) if known.any() else None
     compared = bool(known.ravel()[int(summed.argmax())])
     result: dict[str, Any] = {
         "displacements_off": [float(value) for value in off],
@@ -282,11 +284,13 @@ def end_stresses(solved: SolvedFrame, model: BeamMesh, beams: Beams, radii: Floa
     stiff, length = beams.stiff_lengths(radii)[own], beams.length[own]
     for end, place in ((0, stiff[:, 0]), (1, length - stiff[:, 1])):
         share = ((place - near) / (far - near))[:, None, None]
-        felt = solved.sections[first] * (1.0 - share) + solved.sections[last] * share
+        sections = solved.sections[first] * (1.0 - share) + solved.sections[last] * share
         along = (place / length)[:, None]
         radius = radii[own, :1] * (1.0 - along) + radii[own, 1:] * along
-        pull = np.abs(felt[:, 0]) / (np.pi * radius**2)
-        result[own, end] = pull + np.hypot(felt[:, 1], felt[:, 2]) / (0.25 * np.pi * radius**3)
+        axial = np.abs(sections[:, 0]) / (np.pi * radius**2)
+        result[own, end] = axial + np.hypot(sections[:, 1], sections[:, 2]) / (
+            0.25 * np.pi * radius**3
+        )
     return result
 
 
@@ -307,15 +311,15 @@ def doubts(figures: Mapping[str, Any], final: Analysis, names: Sequence[str]) ->
             f"displacements differ by {off[k]:.0%} in case '{names[k]}', where the largest one is "
             f"{ratio[k]:.3g} times the design's own"
         )
-    felt = figures["largest_stress"]
+    stress_ratio = figures["largest_stress"]
     if "stress" in final.uses:
         if not figures["worst_strut_compared"]:
             result.append(
                 "the most stressed strut is too short to be compared, as are "
                 f"{1.0 - figures['struts_compared']:.0%} of the struts' ends"
             )
-        elif not abs(felt - 1.0) <= AGREES:
-            result.append(f"its largest stress is {felt:.3g} times the design's own")
+        elif not abs(stress_ratio - 1.0) <= AGREES:
+            result.append(f"its largest stress is {stress_ratio:.3g} times the design's own")
     if "frequency" in final.uses and not abs(figures["lowest_frequency"] - 1.0) <= AGREES:
         times = figures["lowest_frequency"]
         result.append(f"its lowest frequency is {times:.3g} times the design's own")
@@ -407,14 +411,14 @@ def solid_skin(
     return solid, more
 
 
-def _on_solid(skin: SolidSkin, first: int, held: Bools, loads: Floats, moved: Floats) -> None:
+def _on_solid(skin: SolidSkin, first: int, fixed: Bools, loads: Floats, prescribed: Floats) -> None:
     """Brings what is held and loaded on the outside to solid elements, in place."""
     mesh = skin.mesh
     used = np.flatnonzero((mesh.outer >= 0) & (mesh.inner >= 0))
     above, below = first + mesh.outer[used], first + mesh.inner[used]
-    felt = np.zeros((len(mesh.outer), 3))
-    felt[used] = loads[above, :3]
-    loads[first : first + len(mesh.nodes), :3] = mesh.spread(felt)
+    nodal = np.zeros((len(mesh.outer), 3))
+    nodal[used] = loads[above, :3]
+    loads[first : first + len(mesh.nodes), :3] = mesh.spread(nodal)
     # A moment becomes a pair of forces across the skin.
     arm = mesh.nodes[mesh.outer[used]] - mesh.nodes[mesh.inner[used]]
     pair = np.cross(loads[above, 3:], arm) / (arm**2).sum(axis=1)[:, None]
@@ -426,9 +430,9 @@ def _on_solid(skin: SolidSkin, first: int, held: Bools, loads: Floats, moved: Fl
     ends = row[mesh.edges]
     both = (ends >= 0).all(axis=1)
     middle, ends = first + mesh.middles[both], ends[both]
-    held[middle] = held[ends].all(axis=1)
-    moved[middle] = moved[ends].mean(axis=1) * held[middle]
-    held[first:, 3:] = False
+    fixed[middle] = fixed[ends].all(axis=1)
+    prescribed[middle] = prescribed[ends].mean(axis=1) * fixed[middle]
+    fixed[first:, 3:] = False
     loads[first:, 3:] = 0.0
 
 

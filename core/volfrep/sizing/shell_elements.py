@@ -141,8 +141,8 @@ class Shells:
 
     def in_plane(self, displacements: Floats) -> Floats:
         """(t, 3, k) xx, yy and xy in the triangles' axes, MPa, mean over the thickness."""
-        moved = _in_axes(displacements[self.triangles], self.axes)
-        return np.asarray(self._plane_stress() @ (self._strains() @ moved))
+        displacements = _in_axes(displacements[self.triangles], self.axes)
+        return np.asarray(self._plane_stress() @ (self._strains() @ displacements))
 
     def pressed(self, displacements: Floats) -> Floats:
         """(9 t, 6, 6) blocks as of `unit_blocks` that the stress in the plane adds to stiffness.
@@ -153,20 +153,20 @@ class Shells:
         slopes = self._slopes()
         one, two, both = force.T
         way = np.stack([np.stack([one, both], axis=1), np.stack([both, two], axis=1)], axis=1)
-        pulled = way[:, None, None] @ slopes
+        traction = way[:, None, None] @ slopes
         flat = (len(force), -1, 18)
         weight = (self.area / 3.0)[:, None, None]
-        whole = weight * (slopes.reshape(flat).swapaxes(1, 2) @ pulled.reshape(flat))
+        whole = weight * (slopes.reshape(flat).swapaxes(1, 2) @ traction.reshape(flat))
         return _split(whole, self.axes)
 
     def pressed_work(self, mode: Floats) -> Floats:
         """(t, 3) of a mode (n, 6): what `pressed` does in it, for a force of 1 N/mm each way."""
-        moved = _in_axes(mode[self.triangles][..., None], self.axes)[:, None, None]
-        x, y = (self._slopes() @ moved)[..., 0].transpose(3, 0, 1, 2)
+        displacements = _in_axes(mode[self.triangles][..., None], self.axes)[:, None, None]
+        x, y = (self._slopes() @ displacements)[..., 0].transpose(3, 0, 1, 2)
         each = np.stack([x * x, y * y, 2.0 * x * y], axis=1).sum(axis=(2, 3))
         return np.asarray((self.area / 3.0)[:, None] * each)
 
-    def pulled_by(self, force: Floats) -> Floats:
+    def pressed_gradient(self, force: Floats) -> Floats:
         """(t, 3, 6) at the corners: derivative of forces in the plane (t, 3), times (t, 3) of them.
 
         In global axes, to the displacements of the corners.
@@ -450,10 +450,12 @@ def _split(stiffness: Floats, axes: Floats) -> Floats:
     return np.asarray(whole.reshape(-1, 3, 6, 3, 6).swapaxes(2, 3).reshape(-1, 6, 6))
 
 
-def _in_axes(moved: Floats, axes: Floats) -> Floats:
+def _in_axes(displacements: Floats, axes: Floats) -> Floats:
     """(t, 18, k) displacements and turns (t, 3, 6, k) of corners, in the triangles' axes."""
-    pairs = moved.reshape(*moved.shape[:2], 2, 3, -1)
-    return np.asarray(np.einsum("tij,tcgjk->tcgik", axes, pairs).reshape(len(moved), 18, -1))
+    pairs = displacements.reshape(*displacements.shape[:2], 2, 3, -1)
+    return np.asarray(
+        np.einsum("tij,tcgjk->tcgik", axes, pairs).reshape(len(displacements), 18, -1)
+    )
 
 
 def _mises(stress: Floats) -> Floats:

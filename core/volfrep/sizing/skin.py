@@ -33,7 +33,7 @@ from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .shell_elements import Shells, UnitBlocks, shells_of
 from .skin_mesh import even_surface
-from .structure import Blocks, Ties
+from .structure import Blocks, MultiPointConstraints
 from .tapered_beams import Elastic, cross_matrix
 
 #: A corner of the middle surface lies no farther from the outside's than this many times the depth.
@@ -134,8 +134,8 @@ class SkinModel:
             displacements: mm and radians.
             shells: of another thickness; None for its own.
         """
-        felt = (shells or self.shells).stresses(self.of_middle(displacements))
-        return np.asarray(self._evened @ felt)
+        stress = (shells or self.shells).stresses(self.of_middle(displacements))
+        return np.asarray(self._evened @ stress)
 
     def pressed(self, displacements: Floats, shells: Shells | None = None) -> Floats:
         """(c, 6, 6) what the stress in the shells' plane adds to `blocks`, of the nodes' (n, 6)."""
@@ -191,7 +191,7 @@ def skin_model(
     feet: Feet = NO_FEET,
     monitor: Monitor | None = None,
     *,
-    held: Bools | None = None,
+    fixed: Bools | None = None,
     thickest: float | None = None,
 ) -> SkinModel:
     """The skin of a part as shells.
@@ -204,7 +204,7 @@ def skin_model(
         openings: the faces that have none.
         feet: where struts meet it.
         monitor: asked for a cancel.
-        held: (m,) which of the part's triangles no load case moves; None for none.
+        fixed: (m,) which of the part's triangles no load case moves; None for none.
         thickest: mm, up to which the skin may become thicker; None where it does not.
     """
     outside = even_surface(solid, edge, monitor, feet.places)
@@ -237,8 +237,8 @@ def skin_model(
     walls = kept, normal[used], corner_angles(corners[used])
     middle = _inwards(outside.vertices, *walls, 0.5 * local)
     inside = 2.0 * middle - outside.vertices
-    if held is not None and held.any():
-        stays = held[closest_points(solid, corners[used].mean(axis=1))[2]]
+    if fixed is not None and fixed.any():
+        stays = fixed[closest_points(solid, corners[used].mean(axis=1))[2]]
         middle = _inwards(outside.vertices, *walls, 0.5 * local, stays)
     clear = _clear(outside.vertices, middle, kept, normal[used], local)
     pads = np.zeros(len(middle))
@@ -275,7 +275,9 @@ def skin_model(
     )
 
 
-def ties_to(skin: SkinModel, nodes: Floats, rows: Ints, offset: int) -> Ties:
+def constraints_to(
+    skin: SkinModel, nodes: Floats, rows: Ints, offset: int
+) -> MultiPointConstraints:
     """Struts' ends that move as the pad does on which they stand.
 
     Args:
@@ -298,7 +300,9 @@ def ties_to(skin: SkinModel, nodes: Floats, rows: Ints, offset: int) -> Ties:
         share = shares[:, corner, None, None]
         blocks[:, corner, :3, :3] = blocks[:, corner, 3:, 3:] = share * np.eye(3)
         blocks[:, corner, :3, 3:] = -share * arm
-    return Ties(rows, leaders + offset, blocks @ _arms(skin.outside.vertices, skin.middle)[leaders])
+    return MultiPointConstraints(
+        rows, leaders + offset, blocks @ _arms(skin.outside.vertices, skin.middle)[leaders]
+    )
 
 
 def _arms(outside: Floats, middle: Floats) -> Floats:

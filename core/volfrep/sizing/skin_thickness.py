@@ -144,7 +144,7 @@ class SkinThickness:
         work = np.einsum("cik,cij,cjk->ck", one[rows], blocks, other[columns], optimize=True)
         return np.asarray(work.reshape(-1, 9, work.shape[1]).sum(axis=1))
 
-    def felt(self, stress: Floats) -> Floats:
+    def largest(self, stress: Floats) -> Floats:
         """(t,) the largest of (t, k) in each shell, peaks cut off."""
         return np.asarray(np.minimum(stress.max(axis=1), self.peak(stress)))
 

@@ -29,7 +29,7 @@ _FEW = 120
 
 
 @dataclass(frozen=True, eq=False)
-class Ties:
+class MultiPointConstraints:
     """Nodes that move as others do.
 
     Attributes:
@@ -43,7 +43,9 @@ class Ties:
     blocks: Floats
 
 
-NO_TIES = Ties(np.empty(0, np.int64), np.empty((0, 3), np.int64), np.empty((0, 3, 6, 6)))
+NO_CONSTRAINTS = MultiPointConstraints(
+    np.empty(0, np.int64), np.empty((0, 3), np.int64), np.empty((0, 3, 6, 6))
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,14 +70,14 @@ class Structure:
     Attributes:
         nodes: (n, 3) mm.
         beams: the struts.
-        ties: nodes that follow others.
+        constraints: nodes that follow others.
         fixed_blocks: of a skin; None for none.
         attached: (n,) t, of bodies that move with the nodes; None for none.
     """
 
     nodes: Floats
     beams: Beams
-    ties: Ties = NO_TIES
+    constraints: MultiPointConstraints = NO_CONSTRAINTS
     fixed_blocks: Blocks | None = None
     attached: Floats | None = None
     _pattern: BlockPattern = field(init=False, repr=False)
@@ -85,7 +87,7 @@ class Structure:
     def __post_init__(self) -> None:
         struts = self.beams.struts
         leader_of = np.full(len(self.nodes), -1, np.int64)
-        leader_of[self.ties.nodes] = np.arange(len(self.ties.nodes))
+        leader_of[self.constraints.nodes] = np.arange(len(self.constraints.nodes))
         tied = (leader_of[struts] >= 0).any(axis=1)
         # Struts with an end that follows others have three leaders at each end, where an end
         # of its own counts as one that leads itself.
@@ -94,8 +96,8 @@ class Structure:
         blocks = np.zeros((*ends.shape, 3, 6, 6))
         blocks[:, :, 0] = _UNIT
         follows = leader_of[ends]
-        leaders[follows >= 0] = self.ties.leaders[follows[follows >= 0]]
-        blocks[follows >= 0] = self.ties.blocks[follows[follows >= 0]]
+        leaders[follows >= 0] = self.constraints.leaders[follows[follows >= 0]]
+        blocks[follows >= 0] = self.constraints.blocks[follows[follows >= 0]]
         leaders, blocks = leaders.reshape(-1, 6), blocks.reshape(-1, 6, 6, 6)
         first, second = struts[~tied].T
         rows = [first, first, second, second, np.repeat(leaders, 6, axis=1).ravel()]
@@ -117,14 +119,14 @@ class Structure:
         object.__setattr__(result, "fixed_blocks", blocks)
         return result
 
-    def factored(self, radii: Floats, held: Bools) -> Factored:
+    def factored(self, radii: Floats, fixed: Bools) -> Factored:
         """The stiffness of struts with these radii (m, 2), ready to be solved.
 
         Raises:
             VolfrepError: a part of the structure can move without resistance.
         """
         parts = self.beams.stiffness(self.beams.flexibility(radii))
-        return factorise(self._pattern, self._assembled(parts, self._fixed_stiffness), held)
+        return factorise(self._pattern, self._assembled(parts, self._fixed_stiffness), fixed)
 
     def mass(self, radii: Floats) -> sparse.csc_matrix:
         """The consistent mass, t and t mm2, in the pattern's order."""
@@ -146,29 +148,29 @@ class Structure:
         """
         factors: list[Factored] = []
         for k, case in enumerate(cases):
-            held = case.held
-            same = next((j for j in range(k) if np.array_equal(cases[j].held, held)), None)
-            factors.append(self.factored(radii, held) if same is None else factors[same])
+            fixed = case.fixed
+            same = next((j for j in range(k) if np.array_equal(cases[j].fixed, fixed)), None)
+            factors.append(self.factored(radii, fixed) if same is None else factors[same])
         loads = self.all_loads(radii, cases)
-        moved = None
-        if any(case.moved is not None for case in cases):
+        prescribed = None
+        if any(case.prescribed is not None for case in cases):
             still = np.zeros((len(self.nodes), 6))
-            given = [still if case.moved is None else case.moved for case in cases]
-            moved = np.stack(given, axis=-1)
-        return self.answers(factors, loads, moved), factors
+            given = [still if case.prescribed is None else case.prescribed for case in cases]
+            prescribed = np.stack(given, axis=-1)
+        return self.answers(factors, loads, prescribed), factors
 
     def answers(
-        self, factors: Sequence[Factored], loads: Floats, moved: Floats | None = None
+        self, factors: Sequence[Factored], loads: Floats, prescribed: Floats | None = None
     ) -> Floats:
         """(n, 6, k) displacements under loads (n, 6, k), each with its factored stiffness."""
-        loads = self.led(loads)
+        loads = self.condensed(loads)
         result = np.zeros_like(loads)
         kinds = {id(factor): factor for factor in factors}
         for name, factor in kinds.items():
             own = np.array([id(each) == name for each in factors])
-            given = None if moved is None else moved[:, :, own]
+            given = None if prescribed is None else prescribed[:, :, own]
             result[:, :, own] = factor.displacements(loads[:, :, own], given)
-        return self.followed(result)
+        return self.with_dependents(result)
 
     def all_loads(self, radii: Floats, cases: Sequence[Case]) -> Floats:
         """(n, 6, cases) N and N mm, with what accelerations add."""
@@ -176,10 +178,10 @@ class Structure:
         if any(any(case.acceleration) for case in cases):
             mass = self.mass(radii)
             for k, case in enumerate(cases):
-                pull = np.zeros_like(case.loads)
-                pull[:, :3] = case.acceleration
+                acceleration = np.zeros_like(case.loads)
+                acceleration[:, :3] = case.acceleration
                 # On leaders already: what follows them has no unknowns of its own.
-                loads[:, :, k] += self._pattern.restored(mass @ self._pattern.ordered(pull))
+                loads[:, :, k] += self._pattern.restored(mass @ self._pattern.ordered(acceleration))
         return loads
 
     def forces(self, radii: Floats, displacements: Floats) -> Floats:
@@ -188,32 +190,32 @@ class Structure:
         flexibility = self.beams.flexibility(radii)
         return self.beams.forces(flexibility, displacements[first], displacements[second])
 
-    def followed(self, displacements: Floats) -> Floats:
+    def with_dependents(self, displacements: Floats) -> Floats:
         """The displacements (n, 6, k) with those of the nodes that follow others."""
-        ties = self.ties
-        if len(ties.nodes):
+        constraints = self.constraints
+        if len(constraints.nodes):
             displacements = displacements.copy()
-            displacements[ties.nodes] = np.einsum(
-                "tlij,tljk->tik", ties.blocks, displacements[ties.leaders]
+            displacements[constraints.nodes] = np.einsum(
+                "tlij,tljk->tik", constraints.blocks, displacements[constraints.leaders]
             )
         return displacements
 
-    def led(self, loads: Floats) -> Floats:
+    def condensed(self, loads: Floats) -> Floats:
         """Loads (n, 6) or (n, 6, k) with those on nodes that follow others at their leaders."""
-        ties = self.ties
-        if not len(ties.nodes):
+        constraints = self.constraints
+        if not len(constraints.nodes):
             return loads
         given = loads if loads.ndim == 3 else loads[:, :, None]
         result = given.copy()
-        result[ties.nodes] = 0.0
-        shares = np.einsum("tlji,tjk->tlik", ties.blocks, given[ties.nodes])
-        np.add.at(result, ties.leaders, shares)
+        result[constraints.nodes] = 0.0
+        shares = np.einsum("tlji,tjk->tlik", constraints.blocks, given[constraints.nodes])
+        np.add.at(result, constraints.leaders, shares)
         return result if loads.ndim == 3 else result[:, :, 0]
 
     def modes(
         self,
         radii: Floats,
-        held: Bools,
+        fixed: Bools,
         count: int = 6,
         *,
         factor: Factored | None = None,
@@ -223,7 +225,7 @@ class Structure:
 
         Args:
             radii: (m, 2) of the struts, mm.
-            held: (n, 6) bool.
+            fixed: (n, 6) bool.
             count: how many of the lowest.
             factor: the stiffness of these radii and supports, if it is there.
             tolerance: of the eigenvalues, relative.
@@ -234,7 +236,7 @@ class Structure:
         Raises:
             VolfrepError: a part of the structure can move without resistance.
         """
-        factor = factor or self.factored(radii, held)
+        factor = factor or self.factored(radii, fixed)
         whole = self.mass(radii)
         if self.attached is not None:
             own = np.zeros((len(self.nodes), 6))
@@ -248,7 +250,7 @@ class Structure:
             factor.matrix, count, mass, sigma=0.0, OPinv=inverse, v0=start, tol=tolerance
         )
         order = np.argsort(values)
-        modes = self.followed(self._pattern.restored(vectors[:, order]))
+        modes = self.with_dependents(self._pattern.restored(vectors[:, order]))
         return np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi), modes
 
     def buckling(
@@ -277,12 +279,12 @@ class Structure:
             (count,) load factors, inf where nothing buckles; and (n, 6, count) modes, each scaled
             so that the loads' work in it falls by 1 where the load factor rises by 1.
         """
-        free, pulls = factor.free, forces[:, 0]
-        is_pressed = pulls < 0.0
+        free, axial = factor.free, forces[:, 0]
+        is_pressed = axial < 0.0
         nothing = np.full(count, np.inf), np.zeros((len(self.nodes), 6, count))
         if pressed is None and not is_pressed.any():
             return nothing
-        shares = columns.clamped()[is_pressed] / -pulls[is_pressed]
+        shares = columns.clamped()[is_pressed] / -axial[is_pressed]
         most = float(shares.min(initial=np.inf))
         fixed, more = self._fixed_stiffness, None
         if pressed is not None and fixed is not None and self.fixed_blocks is not None:
@@ -323,7 +325,7 @@ class Structure:
         order = np.argsort(found)
         found = found[order]
         found[0] = min(found[0], most)  # where joints stay, a strut buckles between them
-        return found, self.followed(self._pattern.restored(vectors[:, order]))
+        return found, self.with_dependents(self._pattern.restored(vectors[:, order]))
 
     @cached_property
     def _fixed_stiffness(self) -> Floats | None:

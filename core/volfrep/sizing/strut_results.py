@@ -56,14 +56,14 @@ def stresses(beams: Beams, radii: Floats, forces: Floats) -> StrutStresses:
     share = place / length[:, None]
     radius = radii[:, :1] * (1.0 - share) + radii[:, 1:] * share
     arm = (length[:, None] - place)[:, :, None]
-    pull, one, two, twist, about_two, about_three = (
+    axial, one, two, twist, about_two, about_three = (
         forces[:, None, row] for row in (0, 1, 2, 3, 4, 5)
     )
     moment = np.hypot(about_three + arm * one, about_two - arm * two)
     area = (np.pi * radius**2)[:, :, None]
     modulus = (0.25 * np.pi * radius**3)[:, :, None]
     return StrutStresses(
-        pull / area,
+        axial / area,
         moment / modulus,
         4.0 / 3.0 * np.hypot(one, two) / area,
         np.abs(twist) / (2.0 * modulus),
@@ -89,14 +89,14 @@ def buckling_loads(beams: Beams, radii: Floats, count: int) -> Floats:
     along = beams.axes[:, 0, :, None] * beams.axes[:, 0, None, :]
     bend = (2.0 * young * inertia / beams.length)[:, None, None] * (np.eye(3) - along)
     twist = (beams.material.shear * 2.0 * inertia / beams.length)[:, None, None] * along
-    held = np.zeros((count, 3, 3))
-    np.add.at(held, beams.struts[:, 0], bend + twist)
-    np.add.at(held, beams.struts[:, 1], bend + twist)
+    restraint = np.zeros((count, 3, 3))
+    np.add.at(restraint, beams.struts[:, 0], bend + twist)
+    np.add.at(restraint, beams.struts[:, 1], bend + twist)
     across = beams.axes[:, 1:]
     own = bend + twist
     fixity = np.empty((len(radii), 2))
     for end in (0, 1):
-        others = held[beams.struts[:, end]] - own
+        others = restraint[beams.struts[:, end]] - own
         plane = across @ others @ across.swapaxes(1, 2)
         softest = np.linalg.eigvalsh(plane)[:, 0]
         fixity[:, end] = np.maximum(softest, 0.0) * beams.length / (young * inertia)
@@ -133,7 +133,7 @@ class Columns:
         softness = np.linalg.eigvalsh(np.linalg.solve(lower, half.swapaxes(1, 2)))[:, -1]
         return np.asarray(1.0 / softness)
 
-    def between_ends(self, pulls: Floats) -> tuple[Floats, Floats, Floats]:
+    def between_ends(self, axial: Floats) -> tuple[Floats, Floats, Floats]:
         """Stiffness of the ends against bending in a plane under pulls (m,), N.
 
         Pulls are above minus what `clamped` says.
@@ -142,7 +142,7 @@ class Columns:
             (m, 4, 4) of shifts and slopes; the same as its derivative to the pull; and (m, q, 4)
             all unknowns of those of the ends.
         """
-        whole = self.stiffness + pulls[:, None, None] * self.string
+        whole = self.stiffness + axial[:, None, None] * self.string
         follow = -np.linalg.solve(whole[:, 4:, 4:], whole[:, 4:, :4])
         ends = whole[:, :4, :4] + whole[:, :4, 4:] @ follow
         shape = np.concatenate([np.broadcast_to(np.eye(4), ends.shape), follow], axis=1)
@@ -159,23 +159,25 @@ class Columns:
 
     def work(self, forces: Floats, mode: Floats) -> Floats:
         """(m,) of the struts' ends in a mode (n, 6), under forces (m, 6): mode K mode."""
-        moved = self._ends(mode)
-        return np.asarray(np.einsum("mi,mij,mj->m", moved, self._own(1.0, forces)[0], moved))
+        displacements = self._ends(mode)
+        return np.asarray(
+            np.einsum("mi,mij,mj->m", displacements, self._own(1.0, forces)[0], displacements)
+        )
 
     def turned_by(self, forces: Floats, mode: Floats) -> Floats:
         """(m, 6) derivative of `work` to each of the forces."""
-        moved = self._ends(mode)
+        displacements = self._ends(mode)
         shape = self.between_ends(forces[:, 0])[2]
-        result = np.zeros((len(moved), 6))
+        result = np.zeros((len(displacements), 6))
         for row in range(6):
             unit = np.zeros_like(forces)
             unit[:, row] = 1.0
             if row > 0:
                 added = self._turning(shape, unit)
-                result[:, row] = np.einsum("mi,mij,mj->m", moved, added, moved)
+                result[:, row] = np.einsum("mi,mij,mj->m", displacements, added, displacements)
         softer = shape.swapaxes(1, 2) @ self.string @ shape
         for freedoms, signs in _PLANES:
-            bent = moved[:, list(freedoms)] * signs
+            bent = displacements[:, list(freedoms)] * signs
             result[:, 0] += np.einsum("mi,mij,mj->m", bent, softer, bent)
         return result
 
@@ -186,14 +188,14 @@ class Columns:
 
     def _own(self, factor: float, forces: Floats) -> tuple[Floats, Floats]:
         """(m, 12, 12) what `blocks` says, in the struts' own axes."""
-        pulls = forces[:, 0]
-        ends, softer, shape = self.between_ends(factor * pulls)
+        axial = forces[:, 0]
+        ends, softer, shape = self.between_ends(factor * axial)
         change = self._turning(shape, forces)
         local = factor * change
         for freedoms, signs in _PLANES:
             at, sign = np.array(freedoms), np.outer(signs, signs)
             local[:, at[:, None], at] += ends * sign
-            change[:, at[:, None], at] += softer * sign * pulls[:, None, None]
+            change[:, at[:, None], at] += softer * sign * axial[:, None, None]
         for row, flexible in ((0, self.flexibility[:, 0]), (3, self.flexibility[:, 1])):
             for one, other in ((row, row), (row + 6, row + 6), (row, row + 6), (row + 6, row)):
                 local[:, one, other] += (1.0 if one == other else -1.0) / flexible
@@ -209,12 +211,12 @@ class Columns:
         count, every = len(shape), np.array(_ORDER)
         shift, slope = shape[:, np.argsort(every)].reshape(count, _PIECES + 1, 2, 4).swapaxes(0, 2)
         shift, slope = shift.swapaxes(0, 1), slope.swapaxes(0, 1)
-        moved, turned = np.zeros((2, count, _PIECES + 1, 3, 12))
+        shifted, turned = np.zeros((2, count, _PIECES + 1, 3, 12))
         (one, _), (two, signs) = _PLANES
-        moved[:, :, 1, one], turned[:, :, 2, one] = shift, slope
-        moved[:, :, 2, two], turned[:, :, 1, two] = shift * signs, -slope * signs
-        for field, row, share in ((moved, 0, self.shares[:, 0]), (turned, 0, self.shares[:, 1])):
-            first = 0 if field is moved else 3
+        shifted[:, :, 1, one], turned[:, :, 2, one] = shift, slope
+        shifted[:, :, 2, two], turned[:, :, 1, two] = shift * signs, -slope * signs
+        for field, row, share in ((shifted, 0, self.shares[:, 0]), (turned, 0, self.shares[:, 1])):
+            first = 0 if field is shifted else 3
             field[:, :, row, first], field[:, :, row, first + 6] = 1.0 - share, share
         result = np.zeros((count, 12, 12))
         across = forces[:, :3] * (0.0, 1.0, 1.0)
@@ -227,7 +229,7 @@ class Columns:
             moment[:, 2] += arm * forces[:, 1]
             along = (0.5 * step)[:, None, None] * across[:, :, None] * np.eye(3)[0]
             half = turn.swapaxes(1, 2) @ (
-                cross_matrix(across) @ (moved[:, piece + 1] - moved[:, piece])
+                cross_matrix(across) @ (shifted[:, piece + 1] - shifted[:, piece])
                 + 0.5 * cross_matrix(moment) @ (turned[:, piece + 1] - turned[:, piece])
                 + along @ turn
             )
@@ -251,14 +253,16 @@ def columns_of(beams: Beams, radii: Floats) -> Columns:
     slide = 12.0 * beams.material.young / (4.0 * beams.material.shear * beams.section.shear)
     for piece in range(_PIECES):
         first, last = piece / _PIECES, (piece + 1) / _PIECES
-        pull, twist, slope, mixed, shift = beams.flexibility_between(radii, first, last).T
-        along[:, :, piece + 1] = np.stack([pull, twist], axis=1)
+        axial, twist, slope, mixed, shift = beams.flexibility_between(radii, first, last).T
+        along[:, :, piece + 1] = np.stack([axial, twist], axis=1)
         rest = slope * shift - mixed**2
-        held = np.array([[slope, -mixed], [-mixed, shift]]).transpose(2, 0, 1) / rest[:, None, None]
+        stiff = (
+            np.array([[slope, -mixed], [-mixed, shift]]).transpose(2, 0, 1) / rest[:, None, None]
+        )
         middle = 0.5 * (first + last)
         radius = radii[:, 0] * (1.0 - middle) + radii[:, 1] * middle
         at = slice(2 * piece, 2 * piece + 4)
-        stiffness[:, at, at] += rigid.swapaxes(1, 2) @ held @ rigid
+        stiffness[:, at, at] += rigid.swapaxes(1, 2) @ stiff @ rigid
         string[:, at, at] += _string(step, slide * (radius / step) ** 2)
     stiffness, string = (each[:, _ORDER][:, :, _ORDER] for each in (stiffness, string))
     shares = np.cumsum(along, axis=2)

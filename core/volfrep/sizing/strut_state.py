@@ -30,7 +30,7 @@ class StrutState:
         name: of the load case.
         ends: (m, 2, 3) mm, where the struts begin and end, not deformed.
         radii: (m, 2) mm.
-        moved: (m, 2, 3) mm, displacements of the ends.
+        displacements: (m, 2, 3) mm, displacements of the ends.
         stress: (m, 2) von Mises at the ends, MPa.
         buckling: (m, 2) share of its buckling load that each strut carries, alike at both ends.
     """
@@ -38,14 +38,14 @@ class StrutState:
     name: str
     ends: Floats
     radii: Floats
-    moved: Floats
+    displacements: Floats
     stress: Floats
     buckling: Floats
 
     @property
     def displacement(self) -> Floats:
         """(m, 2) mm."""
-        size: Floats = np.linalg.norm(self.moved, axis=2)
+        size: Floats = np.linalg.norm(self.displacements, axis=2)
         return size
 
     def values(self, quantity: str) -> Floats:
@@ -60,13 +60,13 @@ def strut_states(problem: Problem, analysis: Analysis) -> tuple[StrutState, ...]
     struts = structure.beams.struts
     ends = structure.nodes[struts]
     radii = problem.radii.of_struts(analysis.radii)
-    moved = analysis.displacements[struts, :3]  # (m, 2, 3, k)
+    displacements = analysis.displacements[struts, :3]  # (m, 2, 3, k)
     return tuple(
         StrutState(
             case.name,
             ends,
             radii,
-            moved[..., k],
+            displacements[..., k],
             analysis.stress[..., k],
             np.repeat(analysis.buckling[:, k : k + 1], 2, axis=1),
         )

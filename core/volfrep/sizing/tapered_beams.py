@@ -152,18 +152,18 @@ class Beams:
             shifted = [radii.copy(), radii.copy()]
             shifted[0][:, end] -= step
             shifted[1][:, end] += step
-            low, high = (self.flexibility(moved) for moved in shifted)
+            low, high = (self.flexibility(changed) for changed in shifted)
             result[:, end] = (high - low) / (2.0 * step[:, None])
         return result
 
     def stiffness(self, flexibility: Floats) -> tuple[Floats, Floats, Floats]:
         """Blocks (m, 6, 6) of the stiffness in global axes: first end, first to second, second."""
-        pull, twist, slope, mixed, shift = flexibility.T
+        axial, twist, slope, mixed, shift = flexibility.T
         rest = slope * shift - mixed**2
         along = self.axes[:, 0, :, None] * self.axes[:, 0, None, :]
         across = np.eye(3) - along
-        second = np.empty((len(pull), 6, 6))
-        second[:, :3, :3] = _times(1.0 / pull, along) + _times(slope / rest, across)
+        second = np.empty((len(axial), 6, 6))
+        second[:, :3, :3] = _times(1.0 / axial, along) + _times(slope / rest, across)
         second[:, 3:, 3:] = _times(1.0 / twist, along) + _times(shift / rest, across)
         second[:, :3, 3:] = _times(mixed / rest, cross_matrix(self.axes[:, 0]))
         second[:, 3:, :3] = second[:, :3, 3:].swapaxes(1, 2)
@@ -179,14 +179,14 @@ class Beams:
             first: (m, 6, k) how the first ends move and turn, in global axes.
             second: the same of the second ends.
         """
-        moved = second - self._carried() @ first
-        shift = self.axes @ moved[:, :3]
-        turn = self.axes @ moved[:, 3:]
-        pull, twist, slope, mixed, lift = (column[:, None] for column in flexibility.T)
+        relative = second - self._carried() @ first
+        shift = self.axes @ relative[:, :3]
+        turn = self.axes @ relative[:, 3:]
+        axial, twist, slope, mixed, lift = (column[:, None] for column in flexibility.T)
         rest = slope * lift - mixed**2
         return np.stack(
             [
-                shift[:, 0] / pull,
+                shift[:, 0] / axial,
                 (slope * shift[:, 1] - mixed * turn[:, 2]) / rest,
                 (slope * shift[:, 2] + mixed * turn[:, 1]) / rest,
                 turn[:, 0] / twist,
@@ -202,11 +202,11 @@ class Beams:
         Returns:
             (m, 2, 6) at both ends, in global axes; and (m, 6) forces as of `forces`.
         """
-        moved = np.concatenate(
+        relative = np.concatenate(
             [np.einsum("mji,mj->mi", self.axes, part) for part in (strain[:, :3], strain[:, 3:])],
             axis=1,
         )[:, :, None]
-        local = self.forces(flexibility, np.zeros_like(moved), moved)[:, :, 0]
+        local = self.forces(flexibility, np.zeros_like(relative), relative)[:, :, 0]
         ends = np.empty((len(strain), 2, 6))
         ends[:, 1, :3] = np.einsum("mji,mj->mi", self.axes, local[:, :3])
         ends[:, 1, 3:] = np.einsum("mji,mj->mi", self.axes, local[:, 3:])

@@ -176,12 +176,12 @@ class UnionVolume:
         if changes is not None:
             by_strut, by_ball = changes
             bare = own >= ball
-            pull = rays.weight * of_base * bare * own
+            gradient = rays.weight * of_base * bare * own
             count = len(self.struts)
-            by_strut[:, 0] += np.bincount(rays.strut, pull * (1.0 - rays.share), count)
-            by_strut[:, 1] += np.bincount(rays.strut, pull * rays.share, count)
-            pull = rays.weight * of_base * ~bare * joint[rays.node]
-            by_ball += np.bincount(rays.node, pull, len(by_ball))
+            by_strut[:, 0] += np.bincount(rays.strut, gradient * (1.0 - rays.share), count)
+            by_strut[:, 1] += np.bincount(rays.strut, gradient * rays.share, count)
+            gradient = rays.weight * of_base * ~bare * joint[rays.node]
+            by_ball += np.bincount(rays.node, gradient, len(by_ball))
             for counted, at in ((of_start, 0), (of_end, 1)) if width else ():
                 row, k = np.nonzero(counted)
                 self._moved_ends(rays, radii, row, k, at, counted[row, k], by_strut)
@@ -238,10 +238,10 @@ class UnionVolume:
         width = base + rate * stretch
         share = (some.begin[:, 0] + some.speed[:, 0] * stretch) / self.length[some.other[:, 0]]
         fall = (some.curve[:, 0] - rate**2) * stretch + some.twice[:, 0] - base * rate
-        pull = counted * some.weight * stretch * width / fall
+        gradient = counted * some.weight * stretch * width / fall
         count = len(self.struts)
-        by_strut[:, 0] += np.bincount(some.other[:, 0], pull * (1.0 - share), count)
-        by_strut[:, 1] += np.bincount(some.other[:, 0], pull * share, count)
+        by_strut[:, 0] += np.bincount(some.other[:, 0], gradient * (1.0 - share), count)
+        by_strut[:, 1] += np.bincount(some.other[:, 0], gradient * share, count)
 
 
 def _squares(one: Floats, two: Floats) -> Floats:

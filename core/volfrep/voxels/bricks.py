@@ -64,24 +64,24 @@ class CutBricks:
         whole = (parts @ self._whole.reshape(8, -1)).reshape(-1, 33, 33)
         nodes = (parts @ self._nodes.reshape(8, -1)).reshape(-1, 6, 24)
         mean = (parts @ self._modes.reshape(8, -1)).reshape(-1, 6, 9) / total
-        felt = np.swapaxes(self._law @ mean, 1, 2)
-        inner = whole[:, 24:, 24:] - self._size * total * (felt @ mean)
-        across = whole[:, 24:, :24] - felt @ nodes
+        stress = np.swapaxes(self._law @ mean, 1, 2)
+        inner = whole[:, 24:, 24:] - self._size * total * (stress @ mean)
+        across = whole[:, 24:, :24] - stress @ nodes
         result = whole[:, :24, :24] - np.swapaxes(across, 1, 2) @ np.linalg.solve(inner, across)
         symmetric: Floats = 0.5 * (result + np.swapaxes(result, 1, 2))
         return symmetric
 
-    def stress(self, parts: Floats, moved: Floats, edge: Floats) -> Floats:
+    def stress(self, parts: Floats, displacements: Floats, edge: Floats) -> Floats:
         """(k, 6) MPa, Voigt, in the middle of what is filled, where modes say nothing.
 
         Args:
             parts: (k, 8) shares.
-            moved: (k, 24) mm, of the nodes.
+            displacements: (k, 24) mm, of the nodes.
             edge: (3,) mm.
         """
         middle = 0.25 + 0.5 * (parts @ CORNERS) / parts.sum(axis=1)[:, None]
         slopes = gradients(middle) / edge
-        turned = np.einsum("kna,knb->kab", slopes, moved.reshape(-1, 8, 3))
+        turned = np.einsum("kna,knb->kab", slopes, displacements.reshape(-1, 8, 3))
         strain = [turned[:, axis, axis] for axis in range(3)]
         strain += [turned[:, one, two] + turned[:, two, one] for one, two in SHEARS]
         result: Floats = np.stack(strain, axis=1) @ self._law

@@ -46,8 +46,8 @@ class VoxelCase:
 
     Attributes:
         name: the load case's.
-        held: (n, 3) bool.
-        moved: (n, 3) mm, to what; 0 elsewhere.
+        fixed: (n, 3) bool.
+        prescribed: (n, 3) mm, to what; 0 elsewhere.
         loads: (n, 3) N, with what the mass weighs.
         places: of each load its name, and (n,) weights of the nodes whose mean it moves by.
         asked: (6,) N and N mm, all loads together and their moment about the origin, with what
@@ -55,20 +55,21 @@ class VoxelCase:
     """
 
     name: str
-    held: Bools
-    moved: Floats
+    fixed: Bools
+    prescribed: Floats
     loads: Floats
     places: tuple[tuple[str, Floats], ...]
     asked: Floats
 
-    def moved_by(self, moved: Floats) -> list[dict[str, Any]]:
+    def mean_displacements(self, displacements: Floats) -> list[dict[str, Any]]:
         """How far each load moves of displacements (n, 3), mm, as plain JSON values."""
         return [
-            {"name": name, "moved_mm": (weights @ moved).tolist()} for name, weights in self.places
+            {"name": name, "moved_mm": (weights @ displacements).tolist()}
+            for name, weights in self.places
         ]
 
 
-def solve_laid(
+def solve_nodal_cases(
     cases: Sequence[VoxelCase],
     solver_of: Callable[[Bools], Multigrid],
     state_of: Callable[[VoxelCase, Floats, Floats, int], S],
@@ -91,16 +92,16 @@ def solve_laid(
     for first, like in enumerate(cases):
         if first in states:
             continue
-        solver = solver_of(~like.held)
+        solver = solver_of(~like.fixed)
         for k, case in enumerate(cases):
-            if k in states or not np.array_equal(case.held, like.held):
+            if k in states or not np.array_equal(case.fixed, like.fixed):
                 continue
             loads = case.loads
-            if case.moved.any():
-                loads = loads - solver.fine.full(case.moved)
-            moved, steps = solver.solve(loads, tolerance=tolerance)
-            moved = moved + case.moved
-            states[k] = state_of(case, moved, solver.fine.full(moved), steps)
+            if case.prescribed.any():
+                loads = loads - solver.fine.full(case.prescribed)
+            displacements, steps = solver.solve(loads, tolerance=tolerance)
+            displacements = displacements + case.prescribed
+            states[k] = state_of(case, displacements, solver.fine.full(displacements), steps)
     return [states[k] for k in range(len(cases))]
 
 
@@ -153,8 +154,8 @@ class Loaded:
                 supports contradict each other, or what is held leaves the part free to move.
         """
         nodal = nodal_case(self.body, case)
-        held, moved = self._held(nodal.held[:, :3], nodal.moved[:, :3])
-        self._refuse_loose(case.name, held)
+        fixed, prescribed = self._constraints(nodal.fixed[:, :3], nodal.prescribed[:, :3])
+        self._refuse_loose(case.name, fixed)
         acting = np.flatnonzero(nodal.loads[:, :3].any(axis=1))
         forces = nodal.loads[acting, :3]
         loads = np.zeros_like(self.nodes)
@@ -167,17 +168,17 @@ class Loaded:
             resultant(self.nodes, own),
         )
         asked = np.concatenate(of_forces) + np.concatenate(of_weight)
-        return VoxelCase(case.name, held, moved, loads + own, tuple(places), asked)
+        return VoxelCase(case.name, fixed, prescribed, loads + own, tuple(places), asked)
 
-    def _held(self, held: Bools, moved: Floats) -> tuple[Bools, Floats]:
+    def _constraints(self, fixed: Bools, prescribed: Floats) -> tuple[Bools, Floats]:
         result, to = np.zeros((len(self.nodes), 3), bool), np.zeros((len(self.nodes), 3))
         for axis in range(3):
-            key = held[:, axis].tobytes()
+            key = fixed[:, axis].tobytes()
             if key not in self._found:
-                self._found[key] = self.nodes_at(held[:, axis])
+                self._found[key] = self.nodes_at(fixed[:, axis])
             rows, nearest = self._found[key]
             result[rows, axis] = True
-            to[rows, axis] = moved[nearest, axis]
+            to[rows, axis] = prescribed[nearest, axis]
         return result, to
 
     def weights_of(self, region: Region) -> Floats:
@@ -189,13 +190,13 @@ class Loaded:
         share = share_of(self.body, region)
         return np.asarray(self._weights(self.body.nodes[share.nodes]).T @ share.weights)
 
-    def nodes_at(self, held: Bools) -> tuple[Ints, Ints]:
-        """Nodes that lie on held places of the surface, and the surface's node that each is at."""
-        if not held.any():
+    def nodes_at(self, fixed: Bools) -> tuple[Ints, Ints]:
+        """Nodes that lie on fixed places of the surface, and the surface's node that each is at."""
+        if not fixed.any():
             return np.zeros(0, np.int64), np.zeros(0, np.int64)
-        facets = self.body.facets[held[self.body.facets].all(axis=1)]
+        facets = self.body.facets[fixed[self.body.facets].all(axis=1)]
         rows, nearest = np.zeros(0, np.int64), np.zeros(0, np.int64)
-        single = held.copy()
+        single = fixed.copy()
         if len(facets):
             single[facets.ravel()] = False
             edge = HAIR * float(self.grid.edge.max())
@@ -243,7 +244,7 @@ class Loaded:
             result = at[:, None] * acceleration
         return result
 
-    def _refuse_loose(self, name: str, held: Bools) -> None:
+    def _refuse_loose(self, name: str, fixed: Bools) -> None:
         """Refuse a part that may move as a whole."""
         middle = self.nodes.mean(axis=0)
         lever = (self.nodes - middle) / float(np.ptp(self.nodes, axis=0).max())
@@ -251,7 +252,7 @@ class Loaded:
         for axis in range(3):
             motions[:, axis, axis] = 1.0
             motions[:, :, 3 + axis] = np.cross(np.eye(3)[axis], lever)
-        there = motions[held]
+        there = motions[fixed]
         if len(there) < 6 or np.linalg.matrix_rank(there.T @ there, 1e-9 * len(there)) < 6:
             raise VolfrepError(
                 f"Load case '{name}': the part may move as a whole, since its supports do not hold "

@@ -103,23 +103,23 @@ class Fine:
         self._cut_nodes = np.unique(elements.nodes[self._cut_rows])
         self._cut_blocks = np.zeros((0, 3, 3))
 
-    def full(self, moved: Any32) -> Any32:
+    def full(self, displacements: Any32) -> Any32:
         """(n, 3) N that hold (n, 3) displacements, mm, whatever is held; in their precision."""
-        nodes, kind = self._whole, moved.dtype
+        nodes, kind = self._whole, displacements.dtype
         forces = np.empty((len(nodes), 24), kind)
         for begin in range(0, len(nodes), AT_ONCE):
             part = slice(begin, begin + AT_ONCE)
-            own = np.take(moved, nodes[part], axis=0).reshape(-1, 24)
+            own = np.take(displacements, nodes[part], axis=0).reshape(-1, 24)
             np.matmul(own, self._matrix[kind], out=forces[part])
         result: Any32 = self._scatter[kind] @ forces.reshape(-1, 3)
         if len(self._cut_nodes):
-            own = np.take(moved, self._cut_nodes, axis=0)
+            own = np.take(displacements, self._cut_nodes, axis=0)
             result[self._cut_nodes] += (self._cut[kind] @ own.ravel()).reshape(-1, 3)
         return result
 
-    def __call__(self, moved: Any32) -> Any32:
+    def __call__(self, displacements: Any32) -> Any32:
         """(n, 3) N on what is free of displacements that are zero where it is not."""
-        return self.full(moved) * self.free
+        return self.full(displacements) * self.free
 
     def blocks(self) -> Floats:
         """(n, 3, 3) the nodes' own parts of the matrix; 1 where it is held."""
@@ -293,14 +293,14 @@ class Level:
         middle, half = 0.5 * high * (1 + 1 / DAMPED), 0.5 * high * (1 - 1 / DAMPED)
         ratio = half / middle
         step = self._scaled(forces) / np.float32(middle)
-        moved, before = step.copy(), ratio
+        displacements, before = step.copy(), ratio
         for _ in range(DEGREE - 1):
-            left = self._scaled(forces - self.apply(moved))
+            left = self._scaled(forces - self.apply(displacements))
             after = 1.0 / (2.0 / ratio - before)
             step = np.float32(after * before) * step + np.float32(2.0 * after / half) * left
-            moved += step
+            displacements += step
             before = after
-        return moved
+        return displacements
 
 
 class Multigrid:
@@ -350,23 +350,25 @@ class Multigrid:
     def precondition(self, forces: Floats) -> Floats:
         """(n, 3) one cycle's displacements under forces; symmetric, in single precision."""
         size = float(np.abs(forces).max()) or 1.0
-        moved = self._cycle(0, (forces / size).astype(np.float32)) * self._free32
-        return moved.astype(float) * size
+        displacements = self._cycle(0, (forces / size).astype(np.float32)) * self._free32
+        return displacements.astype(float) * size
 
     def _cycle(self, k: int, forces: Any32) -> Any32:
         if k == len(self.levels):
             solved = self._lowest(forces.astype(float).ravel())
             return np.asarray(solved.reshape(-1, 3).astype(np.float32))
         level = self.levels[k]
-        moved = level.smooth(forces)
-        left = forces - level.apply(moved)
-        moved += self._only_free(k, level.prolong @ self._cycle(k + 1, level.restrict @ left))
-        left = forces - level.apply(moved)
-        moved += level.smooth(left)
-        return moved
+        displacements = level.smooth(forces)
+        left = forces - level.apply(displacements)
+        displacements += self._only_free(
+            k, level.prolong @ self._cycle(k + 1, level.restrict @ left)
+        )
+        left = forces - level.apply(displacements)
+        displacements += level.smooth(left)
+        return displacements
 
-    def _only_free(self, k: int, moved: Any32) -> Any32:
-        return moved * self._free32 if k == 0 else moved
+    def _only_free(self, k: int, displacements: Any32) -> Any32:
+        return displacements * self._free32 if k == 0 else displacements
 
     def solve(
         self, loads: Floats, start: Floats | None = None, tolerance: float = 1e-6
@@ -384,24 +386,24 @@ class Multigrid:
         """
         fine = self.fine
         right = loads * fine.free
-        moved = np.zeros_like(right) if start is None else start * fine.free
-        left = right - fine(moved) if start is not None else right.copy()
+        displacements = np.zeros_like(right) if start is None else start * fine.free
+        left = right - fine(displacements) if start is not None else right.copy()
         small = tolerance * float(np.linalg.norm(right))
         if float(np.linalg.norm(left)) <= small:
-            return moved, 0
+            return displacements, 0
         ahead = self.precondition(left)
         step, work = ahead, float(np.vdot(left, ahead))
         first = float(np.linalg.norm(left))
         for number in range(1, MOST_STEPS + 1):
-            pulled = fine(step)
-            size = work / float(np.vdot(step, pulled))
-            moved += size * step
+            force = fine(step)
+            size = work / float(np.vdot(step, force))
+            displacements += size * step
             before = left
-            left = left - size * pulled
+            left = left - size * force
             norm = float(np.linalg.norm(left))
             self.monitor.tick(min(np.log(first / norm) / np.log(first / small), 1.0))
             if norm <= small:
-                return moved, number
+                return displacements, number
             ahead = self.precondition(left)
             after = float(np.vdot(left, ahead))
             # The preconditioner is rounded: the step is made conjugate to the one before.
@@ -414,8 +416,8 @@ class Multigrid:
 
 
 def _applied(matrix: Any) -> Callable[[Any32], Any32]:
-    def apply(moved: Any32) -> Any32:
-        return np.asarray((matrix @ moved.ravel()).reshape(-1, 3))
+    def apply(displacements: Any32) -> Any32:
+        return np.asarray((matrix @ displacements.ravel()).reshape(-1, 3))
 
     return apply
 
@@ -437,8 +439,8 @@ def factorised(matrix: Any) -> Callable[[Floats], Floats]:
     whole = matrix.astype(float).tocsc()
     # A free node between coarse ones that are held else makes two of them one.
     whole = 0.5 * (whole + whole.T) + diags(1e-6 * whole.diagonal())
-    held: Callable[[Floats], Floats] = splu(
+    solution: Callable[[Floats], Floats] = splu(
         whole.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
         options={"SymmetricMode": True},
     ).solve  # fmt: skip
-    return held
+    return solution

@@ -20,7 +20,7 @@ from ..util.peaks import most_but_peaks
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .bricks import Brick, CutBricks, brick
-from .loaded import Loaded, VoxelCase, solve_laid, surface_body
+from .loaded import Loaded, VoxelCase, solve_nodal_cases, surface_body
 from .multigrid import AT_ONCE, Elements, Fine, Multigrid, elements_at
 from .shares import VoxelGrid, voxel_grid
 
@@ -154,14 +154,16 @@ def solve_cases(
         )  # fmt: skip
         return Multigrid(fine, model.grid.shares.shape, monitor)
 
-    def state_of(case: VoxelCase, moved: Floats, forces: Floats, steps: int) -> VoxelState:
-        reactions = np.where(case.held, forces - case.loads, 0.0)
-        return VoxelState(case, moved, stresses(model, moved), reactions, steps)
+    def state_of(case: VoxelCase, displacements: Floats, forces: Floats, steps: int) -> VoxelState:
+        reactions = np.where(case.fixed, forces - case.loads, 0.0)
+        return VoxelState(case, displacements, stresses(model, displacements), reactions, steps)
 
-    return solve_laid([model.loaded.case(case) for case in cases], solver_of, state_of, tolerance)
+    return solve_nodal_cases(
+        [model.loaded.case(case) for case in cases], solver_of, state_of, tolerance
+    )
 
 
-def stresses(model: VoxelModel, moved: Floats) -> Floats:
+def stresses(model: VoxelModel, displacements: Floats) -> Floats:
     """(e,) MPa, von Mises: the largest of the eight Gauss points of a full voxel; of one that is
     cut in the middle of what is filled.
     """
@@ -169,11 +171,11 @@ def stresses(model: VoxelModel, moved: Floats) -> Floats:
     result = np.empty(len(model.shares))
     for begin in range(0, len(result), AT_ONCE):
         part = slice(begin, begin + AT_ONCE)
-        own = moved[model.elements.nodes[part]].reshape(-1, 24)
+        own = displacements[model.elements.nodes[part]].reshape(-1, 24)
         result[part] = von_mises((own @ table).reshape(-1, 8, 6)).max(axis=1)
         rows = np.flatnonzero(model.shares[part] < 1.0)
-        felt = model.cut.stress(model.parts[part][rows], own[rows], model.grid.edge)
-        result[begin + rows] = von_mises(felt)
+        stress = model.cut.stress(model.parts[part][rows], own[rows], model.grid.edge)
+        result[begin + rows] = von_mises(stress)
     return result
 
 
@@ -196,8 +198,8 @@ def outer_places(model: VoxelModel) -> Bools:
 
 def figures_of(model: VoxelModel, state: VoxelState) -> dict[str, Any]:
     """What a load case came to, as plain JSON values."""
-    case, moved = state.case, state.displacements
-    size = np.linalg.norm(moved, axis=1)
+    case, displacements = state.case, state.displacements
+    size = np.linalg.norm(displacements, axis=1)
     most = int(size.argmax())
     told = model.shares >= TOLD
     edge, low = model.grid.edge, model.grid.low
@@ -210,8 +212,8 @@ def figures_of(model: VoxelModel, state: VoxelState) -> dict[str, Any]:
         "name": case.name,
         "displacement_mm": float(size[most]),
         "displacement_at": model.nodes[most].tolist(),
-        "loads": case.moved_by(moved),
-        "compliance_nmm": float(np.vdot(case.loads, moved)),
+        "loads": case.mean_displacements(displacements),
+        "compliance_nmm": float(np.vdot(case.loads, displacements)),
         "stress_mpa": {
             name: most_but_peaks(state.stress[at], model.shares[at]) if at.any() else None
             for name, at in places.items()

@@ -10,7 +10,7 @@ from typing import Any
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import LIBRARY, UnitCell
 from volfrep.design.tpms import SURFACES, PeriodicSurface
-from volfrep.mechanics.endless import strains_held
+from volfrep.mechanics.endless import stretched_strains
 
 from .cell_picture import cell_icon, wall_icon
 
@@ -94,7 +94,7 @@ class StrutEntry(Entry):
             file = translate(_CONTEXT, "not saved")
         if self.path:
             file = Path(self.path).name
-        held = _STRETCHING if strains_held(cell) == 6 else _BENDING
+        held = _STRETCHING if stretched_strains(cell) == 6 else _BENDING
         return (
             (translate(_CONTEXT, "Nodes"), len(cell.nodes)),
             (translate(_CONTEXT, "Struts"), len(cell.struts)),

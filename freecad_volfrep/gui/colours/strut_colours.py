@@ -94,7 +94,7 @@ class StrutColours:
         """Show a load case; returns how many times its displacements are enlarged, if they are."""
         self._state = self._states[case]
         factor = drawn_factor(self._states) if is_deformed else None
-        self._places = self._state.ends + (factor or 0.0) * self._state.moved
+        self._places = self._state.ends + (factor or 0.0) * self._state.displacements
         self._nearest = NearestStrut(self._places)
         self._draw()
         return factor

@@ -91,7 +91,7 @@ def test_whole_blocks_of_six_cells_swing_as_their_beams_do(cell):
     model, found = solve_struts(solid, spec, loads)
     structure = model.problem.structure
     radii = model.problem.radii.of_struts(found.radii)
-    beams, _ = structure.modes(radii, model.problem.cases[0].held, 3)
+    beams, _ = structure.modes(radii, model.problem.cases[0].fixed, 3)
     # Of a whole lattice, the mass of its struts, each from node to node.
     sizes = radii[:, 0] ** 2 + radii[:, 0] * radii[:, 1] + radii[:, 1] ** 2
     heavy = float((np.pi / 3.0 * structure.beams.length * sizes).sum())

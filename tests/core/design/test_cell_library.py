@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components
 
 from volfrep.design.cells import LIBRARY, USES, make_cell
 from volfrep.grid.strut_graph import cell_graph
-from volfrep.mechanics.endless import endless_cell, strains_held
+from volfrep.mechanics.endless import endless_cell, stretched_strains
 from volfrep.mechanics.frame import Ends, frame_tensor
 from volfrep.mechanics.joint_fit import periodic_frame
 from volfrep.mechanics.tensor import moduli, young
@@ -164,7 +164,7 @@ def test_columns_make_a_cell_stiffer_along_them(name, without):
 
 
 def test_only_cells_that_carry_by_stretching_are_called_stiff():
-    held = {name: strains_held(cell) for name, cell in LIBRARY.items()}
+    held = {name: stretched_strains(cell) for name, cell in LIBRARY.items()}
     assert all(held[name] == 6 for name, cell in LIBRARY.items() if cell.use == "stiff")
     assert all(held[name] <= 3 for name, cell in LIBRARY.items() if cell.use == "open")
     # Foams and nets of four struts a joint withstand nothing but pressure.
@@ -182,4 +182,4 @@ def test_struts_that_stretch_keep_their_stiffness_for_the_weight_when_they_are_t
         return min(figures.E100, figures.E110, figures.E111) / weight
 
     share = worth(0.005) / worth(0.02)
-    assert share > 0.95 if strains_held(LIBRARY[name]) == 6 else share < 0.1
+    assert share > 0.95 if stretched_strains(LIBRARY[name]) == 6 else share < 0.1

@@ -237,10 +237,10 @@ def test_a_case_holds_what_its_supports_say():
     )
     laid = nodal_case(body, case)
     left, right = body.nodes[:, 0] == 0.0, body.nodes[:, 0] == 30.0
-    assert laid.held[left].all()
-    assert laid.held[right].tolist() == [[True] + 5 * [False]] * 9
-    assert laid.moved[right, 0].tolist() == [0.25] * 9
-    assert not laid.held[~left & ~right].any()
+    assert laid.fixed[left].all()
+    assert laid.fixed[right].tolist() == [[True] + 5 * [False]] * 9
+    assert laid.prescribed[right, 0].tolist() == [0.25] * 9
+    assert not laid.fixed[~left & ~right].any()
     assert not laid.loads.any()
     assert laid.acceleration.tolist() == [0.0, 0.0, -9810.0]
 

@@ -25,7 +25,7 @@ def test_every_load_of_the_documented_bracket_finds_its_place():
     )
     for case in read_load_cases(LOADS, bracket).cases:
         laid = nodal_case(body, case)
-        held = body.nodes[laid.held[:, 0]]
+        held = body.nodes[laid.fixed[:, 0]]
         assert set(np.sign(held[:, [0, 2]]).ravel()) == {-1.0, 1.0}
         assert np.hypot(np.abs(held[:, 0]) - 70, np.abs(held[:, 2]) - 37).max() < 5.26
         loaded = body.nodes[laid.loads.any(axis=1)]

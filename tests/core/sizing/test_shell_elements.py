@@ -15,7 +15,7 @@ from volfrep.mesh import remesh
 from volfrep.mesh.booleans import as_manifold, as_mesh
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.shell_elements import shells_of
-from volfrep.sizing.skin import Feet, skin_model, ties_to
+from volfrep.sizing.skin import Feet, constraints_to, skin_model
 from volfrep.sizing.skin_mesh import even_surface
 from volfrep.sizing.structure import Structure
 from volfrep.sizing.strut_results import columns_of
@@ -221,7 +221,7 @@ def test_a_hollow_box_is_as_stiff_as_solid_bricks(thick):
     titanium = Elastic(113_800.0, 0.342)
     solid = box(30, 20, 20)
     held = (np.abs(solid.vertices[solid.triangles, 0] + 15.0) < 1e-6).all(axis=1)
-    skin = skin_model(solid, thick, 5.0, titanium, held=held)
+    skin = skin_model(solid, thick, 5.0, titanium, fixed=held)
     nodes = skin.outside.vertices
     structure = Structure(nodes, NO_STRUTS, fixed_blocks=skin.blocks)
     facets = skin.outside.triangles.astype(np.int64)
@@ -230,7 +230,7 @@ def test_a_hollow_box_is_as_stiff_as_solid_bricks(thick):
     cases = []
     for force in ((200.0, 0.0, 0.0), (0.0, 0.0, -200.0)):
         laid = nodal_case(body, LoadCase("load", (Support(wall),), (Force(tip, force),)))
-        cases.append(Case(laid.held, laid.loads))
+        cases.append(Case(laid.fixed, laid.loads))
     moved, _ = structure.displacements(np.empty((0, 2)), cases)
     work = [np.sum(case.loads * moved[:, :, k]) for k, case in enumerate(cases)]
     assert work == pytest.approx(HOLLOW[thick], rel=0.04)
@@ -266,7 +266,7 @@ def test_what_is_held_is_held_on_the_outside():
     """A wall that ends at a held face reaches to it."""
     solid = box(40, 30, 20)
     held = (np.abs(solid.vertices[solid.triangles, 0] + 20.0) < 1e-6).all(axis=1)
-    skin = skin_model(solid, 2.0, 5.0, STEEL, held=held)
+    skin = skin_model(solid, 2.0, 5.0, STEEL, fixed=held)
     assert skin.middle.min(axis=0) == pytest.approx([-20.0, -14.0, -9.0])
     assert skin.middle.max(axis=0) == pytest.approx([19.0, 14.0, 9.0])
     assert skin.inside.min(axis=0) == pytest.approx([-18.0, -13.0, -8.0])
@@ -303,13 +303,13 @@ def test_struts_find_a_vertex_where_they_meet_the_skin():
 def test_a_strut_that_ends_in_the_skin_moves_with_it():
     skin = skin_model(box(40, 30, 20), 2.0, 5.0, STEEL)
     ends = np.array([[18.0, 3.0, 1.0], [2.0, 13.0, -4.0]])  # on the inner wall
-    ties = ties_to(skin, ends, np.array([0, 1]), 0)
+    constraints = constraints_to(skin, ends, np.array([0, 1]), 0)
     turn, shift = np.array([1e-3, -2e-3, 5e-4]), np.array([0.1, 0.2, -0.3])
     rigid = np.concatenate(
         [shift + np.cross(turn, skin.outside.vertices), np.tile(turn, (len(skin.middle), 1))],
         axis=1,
     )
-    followed = np.einsum("tlij,tlj->ti", ties.blocks, rigid[ties.leaders])
+    followed = np.einsum("tlij,tlj->ti", constraints.blocks, rigid[constraints.leaders])
     assert followed[:, :3] == pytest.approx(shift + np.cross(turn, ends))
     assert followed[:, 3:] == pytest.approx(np.tile(turn, (2, 1)))
 
@@ -344,5 +344,5 @@ def test_a_pressed_square_plate_buckles_at_4_pi2_d_over_b2(parts, within):
     work = np.einsum("ci,cij,cj->", mode[rows[0]], askew.pressed(way), mode[rows[1]])
     assert (felt * forces).sum() == pytest.approx(work)
     pull = np.zeros_like(mode)
-    np.add.at(pull, triangles, askew.pulled_by(felt))
+    np.add.at(pull, triangles, askew.pressed_gradient(felt))
     assert (pull * way).sum() == pytest.approx(work)

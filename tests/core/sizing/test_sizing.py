@@ -211,7 +211,7 @@ def test_nodes_that_move_alike_are_all_held():
 
 def test_a_frequency_is_reached_with_less_mass():
     problem, radii = cantilever(count=(4, 1, 1))
-    swings, _ = problem.structure.modes(problem.radii.of_struts(radii), problem.cases[0].held, 1)
+    swings, _ = problem.structure.modes(problem.radii.of_struts(radii), problem.cases[0].fixed, 1)
     made = lightest(problem, Limits(frequency=float(swings[0])), radii, most_steps=20)
     assert made.holds
     assert made.analysis.frequency >= swings[0] * (1 - 2e-3)
@@ -238,7 +238,7 @@ def test_limits_that_cannot_be_held_are_told():
     with pytest.raises(VolfrepError, match="needs a limit"):
         lightest(problem, Limits(), radii)
     case = problem.cases[0]
-    pushed = replace(case, loads=0.0 * case.loads, moved=np.where(case.held, 0.1, 0.0))
+    pushed = replace(case, loads=0.0 * case.loads, prescribed=np.where(case.fixed, 0.1, 0.0))
     with pytest.raises(VolfrepError, match="has none"):
         stiffest(replace(problem, cases=(pushed,)), 300.0, radii)
     with pytest.raises(VolfrepError, match="cannot be reached"):

@@ -18,7 +18,7 @@ from volfrep.mechanics.catalogue import joint_law
 from volfrep.mechanics.frame import SQUARE_SECTION, PeriodicFrame, Section, frame_tensor
 from volfrep.mechanics.materials import Material
 from volfrep.sizing.proof import end_stresses
-from volfrep.sizing.structure import Structure, Ties
+from volfrep.sizing.structure import MultiPointConstraints, Structure
 from volfrep.sizing.strut_results import buckling_loads, columns_of, stresses
 from volfrep.sizing.tapered_beams import (
     Elastic,
@@ -123,12 +123,12 @@ def test_a_node_that_follows_others_moves_with_them():
     arm[:3, 3:] = -cross_matrix(np.array([[0.0, 20.0, 0.0]]))[0]
     blocks = np.zeros((1, 3, 6, 6))
     blocks[0, 0] = arm
-    ties = Ties(np.array([2]), np.array([[1, 1, 1]]), blocks)
+    constraints = MultiPointConstraints(np.array([2]), np.array([[1, 1, 1]]), blocks)
     held = np.zeros((4, 6), bool)
     held[0] = True
     loads = np.zeros((4, 6))
     loads[3, :3] = (0.3, -1.0, 2.0)
-    tied = Structure(nodes, beams_of(nodes, np.array([[0, 1], [2, 3]]), STEEL), ties)
+    tied = Structure(nodes, beams_of(nodes, np.array([[0, 1], [2, 3]]), STEEL), constraints)
     moved, _ = tied.displacements(np.ones((2, 2)), [Case(held, loads)])
     whole = Structure(nodes, beams_of(nodes, np.array([[0, 1], [1, 2], [2, 3]]), STEEL))
     stiff = np.array([[1.0, 1.0], [30.0, 30.0], [1.0, 1.0]])

@@ -43,7 +43,7 @@ def test_a_rod_says_what_the_closed_forms_say(states):
     assert push.radii.tolist() == [[RADIUS, RADIUS], [RADIUS, RADIUS]]
     assert push.stress == pytest.approx(np.full((2, 2), 30.0 / AREA))
     assert push.displacement[:, 1] == pytest.approx(30 * LENGTH / YOUNG / AREA * np.array([0.5, 1]))
-    assert push.moved[1, 1, 0] < 0
+    assert push.displacements[1, 1, 0] < 0
     moment = 6.0 * LENGTH * np.array([[1, 0.5], [0.5, 0]])
     shear = np.sqrt(3.0) * 4.0 / 3.0 * 6.0 / AREA
     assert bend.stress == pytest.approx(np.maximum(moment * RADIUS / INERTIA, shear))

@@ -55,7 +55,7 @@ def free_motions(problem: Problem) -> list[str]:
     middle = nodes.mean(axis=0)
     size = float(np.linalg.norm(np.ptp(nodes, axis=0)))
     for case in problem.cases:
-        node, way = np.nonzero(case.held)
+        node, way = np.nonzero(case.fixed)
         # What the part's six motions as one body do to what is held: slides along x, y, z, turns
         # about them by 1 / size.
         turns = np.zeros((len(node), 6, 3))
@@ -230,10 +230,10 @@ def stressed_skin(
         return []
     shells, nodes = model.skin.shells, analysis.displacements[model.frame_nodes :]
     if is_sized:
-        felt = model.skin.stresses(nodes).max(axis=1)
+        stress = model.skin.stresses(nodes).max(axis=1)
     else:
-        felt = shells.stresses(model.skin.of_middle(nodes)).max(axis=1)
-    over = float(shells.area[felt > limits.stress].sum() / shells.area.sum())
+        stress = shells.stresses(model.skin.of_middle(nodes)).max(axis=1)
+    over = float(shells.area[stress > limits.stress].sum() / shells.area.sum())
     if over <= PEAKS:
         return []
     if is_sized:

@@ -16,7 +16,7 @@ from ...mesh import remesh
 from ...mesh.triangle_mesh import TriangleMesh
 from ...shell.domain import field_of
 from ...shell.thickness_field import ThicknessField
-from ...sizing.model import SizingModel, elastic, feet_of, held_facets, sizing_model
+from ...sizing.model import SizingModel, elastic, feet_of, fixed_facets, sizing_model
 from ...sizing.node_radii import smoothing
 from ...sizing.skin import skin_model
 from ...spatial.proximity import closest_points
@@ -109,7 +109,7 @@ def part_model(
                     wireframe, clipped, infill.domain.mesh,
                     held if out is None else out.at_nodes(held),
                 ),
-                infill.monitor, held=held_facets(infill.solid, loads.cases), thickest=thickest,
+                infill.monitor, fixed=fixed_facets(infill.solid, loads.cases), thickest=thickest,
             )  # fmt: skip
     model = sizing_model(
         wireframe, clipped, spec.kind.cube, infill.filling.spacing, material, loads.cases,

@@ -176,5 +176,5 @@ def _needed(problem: Problem) -> Bools:
     struts = problem.structure.beams.struts
     acts = np.zeros(len(problem.structure.nodes), bool)
     for case in problem.cases:
-        acts |= case.held.any(axis=1) | (case.loads != 0.0).any(axis=1)
+        acts |= case.fixed.any(axis=1) | (case.loads != 0.0).any(axis=1)
     return np.asarray(problem.radii.to_nodes(acts[struts].astype(float)) > 0.0)

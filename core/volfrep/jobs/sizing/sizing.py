@@ -372,12 +372,12 @@ def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[st
                     if not holds:
                         break
                 if proof is not None and limit is not None:
-                    felt = max(proof.skin)
-                    if felt > SKIN_HOLDS * limit:
+                    stress = max(proof.skin)
+                    if stress > SKIN_HOLDS * limit:
                         sized = replace(sized, holds=False)
                         notes.append(
-                            f"The skin's stress is {felt:.4g} MPa in CalculiX, of {limit:.4g} MPa "
-                            "allowed: ask for a higher safety."
+                            f"The skin's stress is {stress:.4g} MPa in CalculiX, of {limit:.4g} "
+                            "MPa allowed: ask for a higher safety."
                         )
                 if proof is not None and sized.holds and not proof.holds(limits, final):
                     sized = replace(sized, holds=False)

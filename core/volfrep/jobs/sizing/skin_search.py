@@ -245,8 +245,8 @@ def skin_peaks(model: SizingModel, analysis: Analysis) -> list[float]:
     """The stress of the skin in each case, MPa, on all but a little of its area."""
     skin = model.skin
     assert skin is not None
-    felt = skin.stresses(analysis.displacements[model.frame_nodes :])
-    return [most_but_peaks(row, skin.shells.area) for row in felt.T]
+    stress = skin.stresses(analysis.displacements[model.frame_nodes :])
+    return [most_but_peaks(row, skin.shells.area) for row in stress.T]
 
 
 def thickness_there(model: SizingModel, domain: TriangleMesh) -> dict[str, Any]:

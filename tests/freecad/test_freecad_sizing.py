@@ -5,6 +5,7 @@ import json
 import shutil
 
 import FreeCAD as App
+import numpy as np
 import pytest
 from test_freecad_fem_loads import add, analysis_of, face_at
 
@@ -18,6 +19,7 @@ from freecad_volfrep.features.sizing.sizing import (
     carried_by,
     first_numbers,
     size_struts,
+    sized_as_printed,
     solve_struts,
     store_outcome,
 )
@@ -237,6 +239,44 @@ def test_what_cannot_be_sized_is_told(doc, infill):
 
 
 @pytest.mark.costly
+def test_struts_are_drawn_so_that_what_is_printed_holds_the_stress(doc):
+    """Four bars pulled by 400 N need a section of 400 / 4 / 300 mm2 each at 300 MPa."""
+    box = doc.addObject("Part::Box", "Row")
+    box.Length, box.Width, box.Height = 40, 10, 10
+    doc.recompute()
+    row = make_lattice_infill(doc, box, **{
+        **BEAM, "CellType": "Box", "StrutRadius": 0.5, "Resolution": 8, "Boundary": "Whole",
+        "BuildDirection": App.Vector(1, 0, 1), "PrintMaterial": "Ti-6Al-4V",
+    })  # fmt: skip
+    analysis = analysis_of(doc, "pull")
+    add(analysis, "Fixed", [(box, face_at(box, (0, 5, 5)))])
+    add(analysis, "Force", [(box, face_at(box, (40, 5, 5)))], Force=400.0)
+    doc.recompute()
+    wanted = {"max_stress": 300, "safety": 0, "thinnest": 0.2, "prove": False}
+    found = size_lattice(row, **wanted, as_printed="lpbf-ti64")
+    needed, added = (
+        2 * np.sqrt(400 / 4 / 300 / np.pi),
+        0.080,
+    )  # by the published table at 45 degrees
+    assert 2 * found.part.radii.max() == pytest.approx(needed - added, rel=5e-3)
+    assert found.printed == "LPBF, Ti-6Al-4V"
+    assert found.summary().count("as printed (LPBF, Ti-6Al-4V)") == 1
+    assert "come out" not in found.summary(), "the same is not told twice"
+    table = next(one for one in found.tables() if one.title.startswith("As printed"))
+    told = {name: values for name, *values in table.rows}
+    assert told["thinnest and thickest strut as printed, mm"][1] == pytest.approx(needed, rel=5e-3)
+    # The document knows it, and Strut Results are of the same struts.
+    assert sized_as_printed(row) == ("LPBF-Ti64", 0.0)
+    (state,) = solve_struts(row)
+    assert state.stress.max() == pytest.approx(300, rel=2e-2)
+    stiffer = size_lattice(row, **wanted)
+    assert sized_as_printed(row) == ("", 0.0)
+    assert "printed" not in stiffer.summary()
+    assert 2 * stiffer.part.radii.max() == pytest.approx(needed, rel=5e-3)
+    with pytest.raises(VolfrepError, match="does not say how far diameters scatter"):
+        size_lattice(row, **wanted, as_printed="SLS-PA12", scatter=1)
+
+
 def test_a_script_sizes_in_one_call(infill):
     loaded(infill)
     outcome = size_lattice(infill, safety=2, thinnest=0.3, thickest=1.6, prove=False)

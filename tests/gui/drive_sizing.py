@@ -142,6 +142,51 @@ def size_and_take(doc, obj):
 
 
 @slow
+def size_as_printed(doc, obj):
+    """Struts that count as the printer makes them: by a table of the process, told, remembered."""
+    open_panel(obj)
+    words = lambda: [table.itemText(k).partition(":")[0] for k in range(table.count())]  # noqa: E731
+    table = part("Printed", QtGui.QComboBox)
+    check("struts count as drawn", table.currentText() == "As drawn")
+    check("all tables are offered", "SLS-PA12" in words(), words())
+    choose("PrintProcess", "LPBF", lambda: obj.PrintProcess)
+    check("then those of the process", words()
+          == ["As drawn", "LPBF-Ti64", "LPBF-316L", "My own measurements"], words())  # fmt: skip
+    choose("Printed", "My own measurements", table.currentText)
+    check("which want a file", part("Table").isVisible())
+    click(part("Size"))
+    check("that is asked for", wait_until(lambda: ".csv" in part("Said").text()))
+    picture("printed_1_own")
+    choose("Printed", "LPBF-Ti64: LPBF, Ti-6Al-4V", table.currentText)
+    check("a published one does not", not part("Table").isVisible())
+    click(part("Prove"))
+    scatter = part("Scatter")
+    click(scatter)
+    xdotool("key", "ctrl+a")
+    xdotool("type", "1")
+    xdotool("key", "Tab")
+    wait_until(lambda: scatter.value() == 1.0)
+    click(part("Size"))
+    told = wait_until(lambda: "as printed (LPBF, Ti-6Al-4V)" in part("Said").text(), 90)
+    check("what comes out is told", told, part("Said").text())
+    figures["said as printed"] = part("Said").text()
+    label = dock().findChild(QtGui.QLabel, "Said").text()
+    check("the colours say so", "Of struts as printed" in label, label)
+    picture("printed_2_sized")
+    answer_panel("OK")
+    check("the panel closes", wait_until(lambda: sizing_panel() is None, 90))
+    check("a report opens", wait_until(lambda: len(reports()) == 1, 60))
+    picture("printed_3_report")
+    reports()[0].close()
+    settle()
+    open_panel(obj)
+    check("the table is remembered", part("Printed").currentText().startswith("LPBF-Ti64"))
+    check("and the deviations", part("Scatter").value() == 1.0)
+    answer_panel("Cancel")
+    wait_until(lambda: sizing_panel() is None)
+
+
+@slow
 def size_a_network(doc, obj):
     """A random network is sized by clicks as cells are, and its radii stored on its own nodes."""
     struts = obj.Struts
@@ -589,6 +634,7 @@ run_checks(
     "sizing",
     {
         size_and_take: loaded,
+        size_as_printed: loaded,
         size_a_network: network,
         cancel_the_panel: loaded,
         escape_keeps_the_best: lambda: loaded((120, 40, 40)),

@@ -24,7 +24,7 @@ from volfrep.util.errors import VolfrepError
 from .sized_states import is_sized_for, sized_states, store_states, why_no_states
 
 if TYPE_CHECKING:
-    from volfrep.jobs.sizing import Goal, SizedPart
+    from volfrep.jobs.sizing import Goal, Printing, SizedPart
     from volfrep.loads.load_cases import LoadCases
     from volfrep.mechanics.materials import SolidMaterial
     from volfrep.sizing.optimise import Step
@@ -80,11 +80,21 @@ class Outcome:
         """Of the struts, g."""
         return _mass(self.part.sized.analysis.volume, self.density)
 
+    @property
+    def printed(self) -> str:
+        """Title of the table of printed diameters; empty where struts are taken as drawn."""
+        printed = self.part.report.get("as_printed")
+        return "" if printed is None else str(printed["table"])
+
     def summary(self) -> str:
         """Sentences for the panel: what was found, and whether another solver agrees."""
-        proof = self.part.report["calculix"]
+        from volfrep.jobs.sizing import printed_note
+
+        report = self.part.report
+        proof, printed = report["calculix"], report.get("as_printed")
         if proof is None:
-            said = " ".join(self.part.report["notes"])
+            told = None if printed is None else printed_note(printed)
+            said = " ".join(note for note in report["notes"] if note != told)
         else:
             off = 100.0 * max(proof["displacements_off"])
             said = (
@@ -103,7 +113,25 @@ class Outcome:
                     "VolfrepSizePanel", "CalculiX does not confirm this design: see its notes."
                 )
                 said = f"{said} {refused}"
-        return f"{self._found()} {said}".strip()
+        return " ".join(text for text in (self._found(), self._printed(), said) if text)
+
+    def _printed(self) -> str:
+        """How struts come out, in a sentence; empty where they are taken as drawn."""
+        printed = self.part.report.get("as_printed")
+        if printed is None:
+            return ""
+        return translate(
+            "VolfrepSizePanel",
+            "All figures are of struts as printed ({table}), {thin:.3f} to {thick:.3f} mm thick; "
+            "drawn are {least:.3f} to {most:.3f} mm, {mass:.4g} g.",
+        ).format(
+            table=printed["table"],
+            thin=printed["diameters_mm"][0],
+            thick=printed["diameters_mm"][1],
+            least=printed["drawn_diameters_mm"][0],
+            most=printed["drawn_diameters_mm"][1],
+            mass=printed["drawn_strut_mass_g"],
+        )
 
     def _found(self) -> str:
         """What was found, in a sentence."""
@@ -154,6 +182,9 @@ class Outcome:
             for name in sized.uses
         ]
         tables = [Table("Struts", tuple(rows), ("", *(name for name, _ in columns)))]
+        printed = self.part.report.get("as_printed")
+        if printed is not None:
+            tables.append(Table("As printed, of which all figures are", _printed_rows(printed)))
         for k, state in enumerate(self.states):
             rows = [
                 ("work of the loads, N mm", *(float(a.compliance[k]) for _, a in columns)),
@@ -199,6 +230,17 @@ def _mass(volume: float, density: float) -> float:
     return volume * density / 1000.0
 
 
+def _printed_rows(printed: Mapping[str, Any]) -> tuple[tuple[Any, ...], ...]:
+    """What comes out and what is drawn, of the report of a sizing."""
+    return (
+        ("table of diameters", printed["table"]),
+        ("standard deviations thinner, for stress and buckling", printed["scatters"]),
+        ("thinnest and thickest strut as printed, mm", *printed["diameters_mm"]),
+        ("thinnest and thickest strut as drawn, mm", *printed["drawn_diameters_mm"]),
+        ("mass of the struts as drawn, g", printed["drawn_strut_mass_g"]),
+    )
+
+
 def _margin(shares: NDArray[np.float64]) -> float:
     """How many times the load may be until struts buckle, one alone or together."""
     return float(1.0 / max(float(shares.max(initial=0.0)), 1e-12))
@@ -225,6 +267,8 @@ def size_lattice(
     goal: str = "mass",
     prove: bool = True,
     remove_thin: bool = False,
+    as_printed: str = "",
+    scatter: float = 0.0,
     **numbers: float,
 ) -> Outcome:
     """Size an infill's struts and store the radii; ``doc.recompute()`` then makes the mesh.
@@ -235,6 +279,10 @@ def size_lattice(
         goal: one of `GOALS`.
         prove: let CalculiX solve the design, where it is installed.
         remove_thin: take away struts that end as thin as they may be and carry little.
+        as_printed: table of printed diameters, or a .csv file of one's own: all figures are of
+            struts as they come out; empty takes them as drawn. The print goes up along the
+            infill's BuildDirection.
+        scatter: stress and buckling are of struts thinner by so many standard deviations of it.
         **numbers: by the names of `volfrep.jobs.sizing.GOALS`, in place of those that the panel
             begins with: such as ``safety=2``, ``max_displacement=0.1``, ``thinnest=0.4``.
 
@@ -244,7 +292,7 @@ def size_lattice(
     """
     outcome = size_struts(
         obj, analyses_of(obj) if analyses is None else analyses, {**first_numbers(obj), **numbers},
-        goal=goal, prove=prove, remove_thin=remove_thin,
+        goal=goal, prove=prove, remove_thin=remove_thin, as_printed=as_printed, scatter=scatter,
     )  # fmt: skip
     store_outcome(obj, outcome)
     return outcome
@@ -284,6 +332,8 @@ def size_struts(
     goal: str = "mass",
     prove: bool = True,
     remove_thin: bool = False,
+    as_printed: str = "",
+    scatter: float = 0.0,
 ) -> Outcome:
     """Size an infill's struts; the infill stays as it is (see `sized_radii.store_radii`).
 
@@ -296,6 +346,10 @@ def size_struts(
         goal: one of `GOALS`.
         prove: let CalculiX solve the design, where it is installed.
         remove_thin: take away struts that end as thin as they may be and carry little.
+        as_printed: table of printed diameters, or a .csv file of one's own: all figures are of
+            struts as they come out; empty takes them as drawn. The print goes up along the
+            infill's BuildDirection.
+        scatter: stress and buckling are of struts thinner by so many standard deviations of it.
 
     Raises:
         VolfrepError: no analysis is chosen, or what is asked for makes no sense or cannot be.
@@ -308,7 +362,11 @@ def size_struts(
     solid, spec, cache = obj.Proxy.wanted(obj)
     loads = loads_of(obj, analyses)
     density = loads.material.density
-    wanted = _wanted(goal, numbers, remove_thin, loads.material)
+    wanted = replace(
+        _wanted(goal, numbers, loads.material),
+        remove_thin=remove_thin,
+        printing=_printing(obj, as_printed, scatter),
+    )
     steps: list[tuple[str, ...]] = []
 
     def watch(number: int, step: Step) -> bool:
@@ -367,14 +425,12 @@ def carried_by(obj: App.DocumentObject, quantity: str) -> dict[str, Any]:
     else:
         loads = loads_of(obj, analyses)
         if not is_sized_for(obj, loads):
-            return {"loads": loads}
+            return {"loads": loads, "printing": printing_of(obj)}
     ends, states = sized_states(obj)
     return {"carried": (ends, states[quantity])}
 
 
-def _wanted(
-    goal: str, numbers: Mapping[str, float], remove_thin: bool, material: SolidMaterial
-) -> Goal:
+def _wanted(goal: str, numbers: Mapping[str, float], material: SolidMaterial) -> Goal:
     """What the engine is asked for.
 
     Raises:
@@ -389,7 +445,40 @@ def _wanted(
         raise VolfrepError(
             "Least mass needs a limit: of stress, displacement, buckling, frequency."
         )
-    return replace(wanted, remove_thin=remove_thin)
+    return wanted
+
+
+def sized_as_printed(obj: App.DocumentObject) -> tuple[str, float]:
+    """By which table, and how many standard deviations thinner, an infill was sized as printed.
+
+    The table is empty where the infill was sized as drawn, or not at all.
+    """
+    report = json.loads(obj.SizingReport) if obj.SizingReport else {}
+    printed = report.get("as_printed") or {}
+    return printed.get("name", ""), float(printed.get("scatters", 0.0))
+
+
+def printing_of(obj: App.DocumentObject) -> Printing | None:
+    """How an infill's struts come out by which it was sized; None where as drawn.
+
+    Raises:
+        VolfrepError: the table was the user's own, and its file is gone.
+    """
+    return _printing(obj, *sized_as_printed(obj))
+
+
+def _printing(obj: App.DocumentObject, table: str, scatter: float) -> Printing | None:
+    """How an infill's struts come out; None where they are taken as drawn.
+
+    Raises:
+        VolfrepError: there is no such table, or it does not say how far diameters scatter.
+    """
+    from volfrep.design.as_printed import find_printed_table
+    from volfrep.jobs.sizing import Printing
+
+    if not table:
+        return None
+    return Printing(find_printed_table(table), tuple(obj.BuildDirection), scatter)
 
 
 def _row(number: int, step: Step, density: float) -> tuple[str, ...]:
@@ -403,6 +492,8 @@ def _row(number: int, step: Step, density: float) -> tuple[str, ...]:
 def solve_struts(obj: App.DocumentObject) -> tuple[StrutState, ...]:
     """The struts of an infill as they are, under every analysis of its document.
 
+    They are as printed where they were sized so.
+
     Raises:
         VolfrepError: there is no analysis, or it or the infill makes no sense.
         Cancelled: in the window, by the user.
@@ -412,9 +503,10 @@ def solve_struts(obj: App.DocumentObject) -> tuple[StrutState, ...]:
     from volfrep.sizing.strut_state import strut_states
 
     loads = loads_of(obj, analyses_of(obj))
+    printing = printing_of(obj)
     solid, spec, cache = obj.Proxy.wanted(obj)
     model, analysis = run_job(
         job_title("Struts of {label}", obj),
-        Call(solve_struts, (solid, spec, loads), {"cache": cache}),
+        Call(solve_struts, (solid, spec, loads), {"printing": printing, "cache": cache}),
     )
     return strut_states(model.problem, analysis)

@@ -44,6 +44,7 @@ class MeshColours:
     """
 
     is_of_mesh = False
+    printed = ""
 
     def __init__(self, obj: App.DocumentObject) -> None:
         self._obj, self._view = obj, obj.ViewObject
@@ -232,6 +233,9 @@ class ColourDock(ObjectDock):
         value = None if place is None else self._colours.value_at(place)
         if value is None:
             text = translate("VolfrepColours", "Move the mouse over the lattice to read values")
+            if self._colours.printed:
+                of = translate("VolfrepColours", "Of struts as printed ({table}).")
+                text = f"{of.format(table=self._colours.printed)} {text}"
         else:
             unit = self._colours.title.rpartition(", ")[2] if "," in self._colours.title else ""
             text = translate("VolfrepColours", "{value} under the mouse").format(
@@ -245,9 +249,17 @@ def open_colours(obj: App.DocumentObject) -> ColourDock:
     return _put_up(obj, MeshColours)
 
 
-def open_struts(obj: App.DocumentObject, states: Sequence[StrutState]) -> ColourDock:
-    """Show what an infill's struts carry, in the place of what is shown in this way."""
-    return _put_up(obj, lambda obj: StrutColours(obj, states))
+def open_struts(
+    obj: App.DocumentObject, states: Sequence[StrutState], printed: str = ""
+) -> ColourDock:
+    """Show what an infill's struts carry, in the place of what is shown in this way.
+
+    Args:
+        obj: the infill.
+        states: its struts in each load case.
+        printed: title of the table by which they are as printed; empty for as drawn.
+    """
+    return _put_up(obj, lambda obj: StrutColours(obj, states, printed))
 
 
 def _put_up(obj: App.DocumentObject, colours: Any) -> ColourDock:

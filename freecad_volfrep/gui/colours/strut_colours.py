@@ -41,14 +41,18 @@ class StrutColours:
     Args:
         obj: the infill.
         states: its struts in each load case.
+        printed: title of the table by which they are as printed; empty for as drawn.
     """
 
     is_of_mesh = True
     why = ""
 
-    def __init__(self, obj: App.DocumentObject, states: Sequence[StrutState]) -> None:
+    def __init__(
+        self, obj: App.DocumentObject, states: Sequence[StrutState], printed: str = ""
+    ) -> None:
         from pivy import coin
 
+        self.printed = printed
         self._obj, self._states = obj, tuple(states)
         self.cases = tuple(state.name for state in states)
         self.quantities = {n: translate("VolfrepColours", text) for n, text in QUANTITIES.items()}

@@ -108,11 +108,13 @@ def size_lattice(obj: App.DocumentObject) -> None:
 
 def show_strut_results(infill: App.DocumentObject) -> None:
     """Solve an infill's struts for the document's load cases, and show them in colours."""
-    from freecad_volfrep.features.sizing.sizing import solve_struts
+    from freecad_volfrep.features.sizing.sizing import printing_of, solve_struts
     from freecad_volfrep.gui.colours.colour_dock import open_struts
 
     with errors_shown():
-        open_struts(infill, solve_struts(infill))
+        printing = printing_of(infill)
+        printed = "" if printing is None else printing.table.title
+        open_struts(infill, solve_struts(infill), printed)
 
 
 def open_help(_: object) -> None:

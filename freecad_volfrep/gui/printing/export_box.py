@@ -9,17 +9,14 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.gui.qt import QtWidgets
-from freecad_volfrep.gui.widgets.file_field import FileField
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, translate
+from freecad_volfrep.gui.widgets.printed_table import PrintedTableFields
+from freecad_volfrep.translation import grouped, translate
 from volfrep.design.file_limits import SERVICES
 
 #: The most that the fields take.
 _MOST_TRIANGLES, _MOST_MEGABYTES = 1_000_000_000, 100_000.0
 _WIDTH = 460
 _CONTEXT = "VolfrepPrinterFile"
-_TABLE_FILES = QT_TRANSLATE_NOOP("VolfrepPrinterFile", "Measured diameters (*.csv)")
-#: What the choice of an own table is kept as.
-_OWN = "own"
 
 
 class PrinterBox(QtWidgets.QDialog):  # type: ignore[misc]
@@ -30,12 +27,9 @@ class PrinterBox(QtWidgets.QDialog):  # type: ignore[misc]
     """
 
     def __init__(self, obj: App.DocumentObject) -> None:
-        from volfrep.design.as_printed import TABLES
-
         super().__init__(Gui.getMainWindow())
         self.setObjectName("VolfrepPrinterBox")
         self.setWindowTitle(translate("VOLFREP_Export", "Export Lattice"))
-        self._tables = TABLES
         rows = QtWidgets.QFormLayout(self)
         present = translate(_CONTEXT, "The mesh has {triangles} triangles, {size:.3g} MB as STL.")
         count = obj.Mesh.CountFacets
@@ -55,18 +49,13 @@ class PrinterBox(QtWidgets.QDialog):  # type: ignore[misc]
         self._megabytes.setSuffix(" MB")
         for spin in (self._triangles, self._megabytes):
             spin.setSpecialValueText(translate(_CONTEXT, "no limit"))
-        self._printer = QtWidgets.QComboBox()
-        self._printer.addItem(translate(_CONTEXT, "As drawn"), "")
-        for name, table in TABLES.items():
-            self._printer.addItem(f"{table.name}: {table.title}", name)
-        self._printer.addItem(translate(_CONTEXT, "My own measurements"), _OWN)
-        self._file = FileField("", translate(_CONTEXT, _TABLE_FILES), lambda _: self._look())
+        self._printed = PrintedTableFields(self._look)
         for name, field, text in (
             ("Service", self._service, translate(_CONTEXT, "Service")),
             ("Triangles", self._triangles, translate(_CONTEXT, "Most triangles")),
             ("Megabytes", self._megabytes, translate(_CONTEXT, "Largest file")),
-            ("Printer", self._printer, translate(_CONTEXT, "Drawn for the printer")),
-            ("Table", self._file, translate(_CONTEXT, "Table")),
+            ("Printer", self._printed.choice, translate(_CONTEXT, "Drawn for the printer")),
+            ("Table", self._printed.file, translate(_CONTEXT, "Table")),
         ):
             field.setObjectName(name)
             field.setAccessibleName(text)
@@ -83,20 +72,16 @@ class PrinterBox(QtWidgets.QDialog):  # type: ignore[misc]
         self._buttons.accepted.connect(self.accept)
         self._buttons.rejected.connect(self.reject)
         self._service.currentIndexChanged.connect(lambda _: self._take_limits())
-        self._printer.currentIndexChanged.connect(lambda _: self._look())
         for spin in (self._triangles, self._megabytes):
             spin.valueChanged.connect(lambda _: self._look())
         self._look()
 
     def wanted(self) -> dict[str, Any]:
         """What was asked for, by the names of `printer_file.export_for_printer`."""
-        printer = self._printer.currentData()
-        if printer == _OWN:
-            printer = self._file.findChild(QtWidgets.QLineEdit).text().strip()
         return {
             "max_triangles": self._triangles.value() or None,
             "max_size": self._megabytes.value() or None,
-            "compensate": printer or None,
+            "compensate": self._printed.wanted or None,
         }
 
     def _take_limits(self) -> None:
@@ -110,7 +95,7 @@ class PrinterBox(QtWidgets.QDialog):  # type: ignore[misc]
 
     def _look(self) -> None:
         """Say where the limits and the diameters come from; OK where there are any."""
-        service, printer = self._service.currentData(), self._printer.currentData()
+        service, table = self._service.currentData(), self._printed.published
         said = []
         if service:
             row = SERVICES[service]
@@ -119,15 +104,15 @@ class PrinterBox(QtWidgets.QDialog):  # type: ignore[misc]
                     source=row.source, date=row.read
                 )
             )
-        if printer in self._tables:
-            sources = {row.source.split("; ", 1)[-1] for row in self._tables[printer].rows}
+        if table is not None:
+            sources = {row.source.split("; ", 1)[-1] for row in table.rows}
             said.append(
                 translate(_CONTEXT, "Diameters: {source}. Yours may differ: print coupons.").format(
                     source="; ".join(sorted(sources))
                 )
             )
         self._note.setText("\n".join(said))
-        self._file.setEnabled(printer == _OWN)
+        self._printed.file.setEnabled(self._printed.is_own)
         has_any = any(self.wanted().values())
         self._buttons.button(QtWidgets.QDialogButtonBox.Ok).setEnabled(has_any)
 

@@ -9,12 +9,14 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep.features.infill.materials import process_of
 from freecad_volfrep.features.sizing.sizing import (
     GOALS,
     ONLY_OF,
     Outcome,
     first_numbers,
     size_struts,
+    sized_as_printed,
     store_outcome,
 )
 from freecad_volfrep.gui.colours.colour_dock import close_struts, open_struts
@@ -30,6 +32,7 @@ from freecad_volfrep.gui.widgets.panel_manners import (
     leave_the_wheel,
     number_width,
 )
+from freecad_volfrep.gui.widgets.printed_table import PrintedTableFields
 from freecad_volfrep.gui.windows.plot_window import show_plot
 from freecad_volfrep.gui.windows.report_window import show_report
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
@@ -39,6 +42,8 @@ from .loads_box import LoadsBox
 
 #: The table of steps is brought up to date so often while they are made, ms.
 TICK = 150
+#: Standard deviations that may be asked for, at most.
+_MOST_SCATTER = 6.0
 HEADER = (
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Step"),
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Mass, g"),
@@ -194,6 +199,8 @@ class SizePanel:
                 goal=self._goal.currentData(),
                 prove=self._prove.isChecked(),
                 remove_thin=self._remove.isChecked(),
+                as_printed=self._printed_table(),
+                scatter=self._scatter.value(),
             )
         except VolfrepError as error:
             self._say(str(error), wrong=True)
@@ -206,7 +213,7 @@ class SizePanel:
             self._show_steps()
         self._plot.setEnabled(True)
         self._say(self._outcome.summary(), wrong=not self._outcome.holds)
-        open_struts(self._obj, self._outcome.states)
+        open_struts(self._obj, self._outcome.states, self._outcome.printed)
         return True
 
     def _show_plot(self) -> None:
@@ -277,10 +284,95 @@ class SizePanel:
             field.setAccessibleName(label_of(name))
             rows.addRow(QtWidgets.QLabel(label_of(name)), field)
             self._lists.append(field)
+        self._add_printed(rows)
         return box
 
+    def _add_printed(self, rows: Any) -> None:
+        """How struts come out: as drawn, by a table of the infill's process, or by one's own."""
+        self._printed = PrintedTableFields(self._show_printed)
+        self._scatter = QtWidgets.QDoubleSpinBox()
+        self._scatter.setRange(0.0, _MOST_SCATTER)
+        self._scatter.setSingleStep(0.5)
+        fields = (
+            (
+                "Printed",
+                self._printed.choice,
+                translate("VolfrepSizePanel", "Struts"),
+                translate(
+                    "VolfrepSizePanel",
+                    "As drawn, or as this printer makes them: stress, stiffness and mass are then "
+                    "of struts as printed, and the radii found are those to draw",
+                ),
+            ),
+            (
+                "Table",
+                self._printed.file,
+                translate("VolfrepPrinterFile", "Table"),
+                translate(
+                    "VolfrepSizePanel",
+                    "A .csv file with the columns inclination, nominal, measured, as Coupons makes",
+                ),
+            ),
+            (
+                "Scatter",
+                self._scatter,
+                translate("VolfrepSizePanel", "Standard deviations"),
+                translate(
+                    "VolfrepSizePanel",
+                    "Stress and buckling are of struts thinner by so many standard deviations of "
+                    "the table",
+                ),
+            ),
+        )
+        self._printed_rows = {}
+        for name, field, text, tip in fields:
+            field.setObjectName(name)
+            field.setAccessibleName(text)
+            field.setToolTip(tip)
+            label = QtWidgets.QLabel(text)
+            rows.addRow(label, field)
+            self._printed_rows[name] = label, field
+        self._lists += [self._printed.choice, self._scatter]
+        table, scatter = sized_as_printed(self._obj)
+        self._offer_tables()
+        self._printed.show(table)
+        self._scatter.setValue(scatter)
+        self._show_printed()
+
+    def _offer_tables(self) -> None:
+        """Those of the process that the infill is printed by, or of all."""
+        try:
+            self._printed.offer(process_of(self._obj))
+        except VolfrepError:  # its material's file says nothing yet, which sizing tells
+            self._printed.offer(None)
+
+    def _show_printed(self) -> None:
+        """Ask for what the choice of a table needs only."""
+        known = self._printed.published
+        has_scatter = known is None or any(row.scatter for row in known.rows)
+        shown = {
+            "Table": self._printed.is_own,
+            "Scatter": has_scatter and bool(self._printed.choice.currentData()),
+        }
+        for name, is_shown in shown.items():
+            for widget in self._printed_rows[name]:
+                widget.setVisible(is_shown)
+        if not shown["Scatter"]:
+            self._scatter.setValue(0.0)
+
+    def _printed_table(self) -> str:
+        """The table that was chosen; empty for struts as drawn.
+
+        Raises:
+            VolfrepError: a file is to be chosen yet.
+        """
+        if self._printed.is_own and not self._printed.wanted:
+            raise VolfrepError("Choose the .csv file of your own measurements, or another table.")
+        return self._printed.wanted
+
     def _made_of(self, name: str) -> None:
-        """Struts no thinner than the process prints."""
+        """Struts no thinner than the process prints; its tables of printed diameters."""
+        self._offer_tables()
         first = first_numbers(self._obj)
         for bound in ("thinnest", "thickest"):
             field = self._fields[bound][1]

@@ -39,6 +39,12 @@ class FileField(QtWidgets.QWidget):
         super().setAccessibleName(name)
         self._line.setAccessibleName(name)
 
+    @property
+    def path(self) -> str:
+        """What is typed."""
+        text: str = self._line.text().strip()
+        return text
+
     def show_path(self, path: str) -> None:
         """Show another file; nothing is told."""
         self._line.setText(path)

@@ -2014,6 +2014,10 @@
       <translation>Keine</translation>
     </message>
     <message>
+      <source>Of struts as printed ({table}).</source>
+      <translation>Von Streben wie gedruckt ({table}).</translation>
+    </message>
+    <message>
       <source>Overhang</source>
       <translation>Überhang</translation>
     </message>
@@ -3701,8 +3705,20 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
   <context>
     <name>VolfrepSizePanel</name>
     <message>
+      <source>A .csv file with the columns inclination, nominal, measured, as Coupons makes</source>
+      <translation>Eine .csv-Datei mit den Spalten inclination, nominal, measured, wie der Befehl Proben sie anlegt</translation>
+    </message>
+    <message>
+      <source>All figures are of struts as printed ({table}), {thin:.3f} to {thick:.3f} mm thick; drawn are {least:.3f} to {most:.3f} mm, {mass:.4g} g.</source>
+      <translation>Alle Werte gelten für Streben wie gedruckt ({table}), {thin:.3f} bis {thick:.3f} mm dick; gezeichnet sind {least:.3f} bis {most:.3f} mm, {mass:.4g} g.</translation>
+    </message>
+    <message>
       <source>Analyses of the FEM workbench: each is a load case</source>
       <translation>Analysen des FEM-Arbeitsbereichs: jede ist ein Lastfall</translation>
+    </message>
+    <message>
+      <source>As drawn, or as this printer makes them: stress, stiffness and mass are then of struts as printed, and the radii found are those to draw</source>
+      <translation>Wie gezeichnet, oder wie dieser Drucker sie macht: Spannung, Steifigkeit und Masse gelten dann für Streben wie gedruckt, und die gefundenen Radien sind die zu zeichnenden</translation>
     </message>
     <message>
       <source>Buckling safety</source>
@@ -3809,12 +3825,24 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Kleinster Radius</translation>
     </message>
     <message>
+      <source>Standard deviations</source>
+      <translation>Standardabweichungen</translation>
+    </message>
+    <message>
       <source>Step</source>
       <translation>Schritt</translation>
     </message>
     <message>
       <source>Steps of {label}</source>
       <translation>Schritte von {label}</translation>
+    </message>
+    <message>
+      <source>Stress and buckling are of struts thinner by so many standard deviations of the table</source>
+      <translation>Spannung und Knicken gelten für Streben, die um so viele Standardabweichungen der Tabelle dünner sind</translation>
+    </message>
+    <message>
+      <source>Struts</source>
+      <translation>Streben</translation>
     </message>
     <message>
       <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>

@@ -2014,6 +2014,10 @@
       <translation>Nessuno</translation>
     </message>
     <message>
+      <source>Of struts as printed ({table}).</source>
+      <translation>Di aste come stampate ({table}).</translation>
+    </message>
+    <message>
       <source>Overhang</source>
       <translation>Sbalzo</translation>
     </message>
@@ -3701,8 +3705,20 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
   <context>
     <name>VolfrepSizePanel</name>
     <message>
+      <source>A .csv file with the columns inclination, nominal, measured, as Coupons makes</source>
+      <translation>Un file .csv con le colonne inclination, nominal, measured, come lo crea il comando Provini</translation>
+    </message>
+    <message>
+      <source>All figures are of struts as printed ({table}), {thin:.3f} to {thick:.3f} mm thick; drawn are {least:.3f} to {most:.3f} mm, {mass:.4g} g.</source>
+      <translation>Tutti i valori sono di aste come stampate ({table}), spesse da {thin:.3f} a {thick:.3f} mm; disegnate sono da {least:.3f} a {most:.3f} mm, {mass:.4g} g.</translation>
+    </message>
+    <message>
       <source>Analyses of the FEM workbench: each is a load case</source>
       <translation>Analisi dell'ambiente FEM: ognuna è un caso di carico</translation>
+    </message>
+    <message>
+      <source>As drawn, or as this printer makes them: stress, stiffness and mass are then of struts as printed, and the radii found are those to draw</source>
+      <translation>Come disegnato, o come le produce questa stampante: tensione, rigidezza e massa sono allora di aste come stampate, e i raggi trovati sono quelli da disegnare</translation>
     </message>
     <message>
       <source>Buckling safety</source>
@@ -3809,12 +3825,24 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Raggio minimo</translation>
     </message>
     <message>
+      <source>Standard deviations</source>
+      <translation>Deviazioni standard</translation>
+    </message>
+    <message>
       <source>Step</source>
       <translation>Passo</translation>
     </message>
     <message>
       <source>Steps of {label}</source>
       <translation>Passi di {label}</translation>
+    </message>
+    <message>
+      <source>Stress and buckling are of struts thinner by so many standard deviations of the table</source>
+      <translation>Tensione e instabilità sono di aste più sottili di tante deviazioni standard della tabella</translation>
+    </message>
+    <message>
+      <source>Struts</source>
+      <translation>Aste</translation>
     </message>
     <message>
       <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>

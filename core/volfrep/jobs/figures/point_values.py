@@ -25,6 +25,7 @@ from ...util.types import Floats
 
 if TYPE_CHECKING:
     from ...loads.load_cases import LoadCases
+    from ..sizing import Printing
 
 #: What there is, and what it is called.
 QUANTITIES = {
@@ -64,6 +65,7 @@ def point_values(
     up: tuple[float, float, float] = (0.0, 0.0, 1.0),
     loads: LoadCases | None = None,
     carried: tuple[Floats, Floats] | None = None,
+    printing: Printing | None = None,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
 ) -> PointValues:
@@ -81,6 +83,7 @@ def point_values(
         loads: for those of `OF_LOADS`.
         carried: in place of loads, what is known of struts: their ends, (m, 2, 3) mm, and the
             values there, (m, 2).
+        printing: how struts come out that carry loads; None as they are drawn.
         progress: called with the fraction done and the stage; returning False cancels.
         cache: keeps the costly stages of the part.
 
@@ -109,7 +112,9 @@ def point_values(
     else:
         if loads is None:
             raise VolfrepError(f"'{quantity}' needs loads: there are none.")
-        model, analysis = solve_struts(solid, spec, loads, progress=progress, cache=cache)
+        model, analysis = solve_struts(
+            solid, spec, loads, printing=printing, progress=progress, cache=cache
+        )
         states = strut_states(model.problem, analysis)
         ends, lowest = states[0].ends, 0.0
         values = np.max([state.values(OF_LOADS[quantity]) for state in states], axis=0)

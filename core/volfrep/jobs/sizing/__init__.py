@@ -3,7 +3,7 @@
 
 from .file_proof import check_file_proof, prove_file
 from .goal import GOALS, Goal, goal_of
-from .printed import Printing
+from .printed import Printing, printed_note
 from .removal import radius_field
 from .sizing import (
     SizedPart,
@@ -21,6 +21,7 @@ __all__ = [
     "SizedPart",
     "check_file_proof",
     "goal_of",
+    "printed_note",
     "prove_file",
     "radius_field",
     "size",

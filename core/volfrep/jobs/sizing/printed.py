@@ -97,6 +97,7 @@ def told_printed(
     out = 2.0 * shape.of_struts(design.radii)
     drawn = 2.0 * shape.drawn(design.radii)
     return {
+        "name": printing.table.name,
         "table": printing.table.title,
         "build_direction": [float(value) for value in printing.build_direction],
         "diameters_mm": [float(out.min()), float(out.max())],

@@ -46,7 +46,7 @@ from .notes import (
     unproved,
 )
 from .part_model import given_radii, part_model
-from .printed import printed_note, told_printed
+from .printed import Printing, printed_note, told_printed
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, without_thin_struts
 from .skin_search import SkinDesign, design_skin, skin_peaks, thickness_there
 from .solid_places import solid_places, told_filled
@@ -492,6 +492,7 @@ def solve_struts(
     spec: LatticeSpec,
     loads: LoadCases,
     *,
+    printing: Printing | None = None,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
 ) -> tuple[SizingModel, Analysis]:
@@ -501,6 +502,7 @@ def solve_struts(
         solid: checked closed mesh, mm.
         spec: what it is filled with, graded or not.
         loads: the material, and what the part carries.
+        printing: how struts come out; None as they are drawn.
         progress: called with the fraction done and the stage; returning False cancels.
         cache: keeps the costly stages of the part.
 
@@ -517,9 +519,10 @@ def solve_struts(
     used = radii[radii > 0.0]
     refuse_heat(loads)
     loads = with_weights(loads)
-    goal = Goal(thinnest=0.999 * float(used.min()), thickest=1.001 * float(used.max()))
+    low, high = 0.999 * float(used.min()), 1.001 * float(used.max())
+    goal = Goal(thinnest=low, thickest=high, printing=printing)
     model = part_model(infill, loads, goal, cache)
-    return model, analyse(model.problem, np.maximum(radii, goal.thinnest or 0.0), Limits())[0]
+    return model, analyse(model.problem, np.maximum(radii, low), Limits())[0]
 
 
 def _stored(problem: Problem, radii: Floats, limits: Limits) -> Analysis:

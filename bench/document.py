@@ -8,15 +8,13 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from .tables import bars_table
+from .tables import bars_told
 
 INTRODUCTION = """# Benchmarks
 
-The evaluation of the paper that the method comes from (A. Bacciaglia, A. Liverani, A. Ceruti: Voxelization and one-dimensional lattice structures for industrial components using function representation), repeated on this engine by `make bench`, beside the printed figures and beside other tools in the same run. `make bench-quick` does a small part of it in a few minutes, into `build/bench-quick`.
+The evaluation of the paper that the method comes from (A. Bacciaglia, A. Liverani, A. Ceruti: Voxelization and one-dimensional lattice structures for industrial components using function representation), repeated by `make bench` beside the printed figures and other tools. `make bench-quick` does a small part in a few minutes, into `build/bench-quick`.
 
-**Only ratios within one run mean something.** Seconds of another machine, or of a busy one, are others; the paper's are from an Intel i9-14900F with 96 GB and MATLAB 2024b. Every job is a process of its own, timed from its start to its end with the file written; memory is the process's peak. Files are judged as a reader sees them: in float32, corners merged by equality.
-
-**What differs from the paper's input.** The GE bracket is a public tessellation of the same part, the piston rod a stand-in in the same box. Figures that the paper only plots are not repeated.
+**Only ratios within one run mean something**: the paper's seconds are from an Intel i9-14900F with 96 GB and MATLAB 2024b. Every job is a process, timed from its start to its file on disk (binary STL, 50 bytes a triangle); memory is its peak. Files are judged as a reader sees them: in float32, corners merged by equality. The GE bracket is a public tessellation of the paper's part, the piston rod a stand-in in the same box. Figures that the paper only plots are left out.
 """
 
 STAND_INS = (
@@ -26,8 +24,8 @@ STAND_INS = (
     "the paper's or with another run's on the real ones."
 )
 BARS = (
-    "Bars in seconds are meant for two idle cores: see the load above before a miss is believed. "
-    "Those that were missed or not measured:"
+    "Bars in seconds are meant for two idle cores (see the load above). Those that were missed or "
+    "not measured:"
 )
 
 
@@ -52,7 +50,7 @@ def document(
             chapters.append(f"## {name}\n\nThis experiment failed: {result['error']}")
             continue
         try:
-            chapters.append(module.render(result, images).strip())
+            chapters += filter(None, [module.render(result, images).strip()])
         except Exception as error:  # the other chapters are still worth having
             traceback.print_exc()
             broken.append(name)
@@ -66,7 +64,7 @@ def document(
     about = [STAND_INS.format(", ".join(sorted(modelled)))] if modelled else []
     parts = [INTRODUCTION.strip(), *about, _machines(results), f"## Bars: {count}"]
     if missed or unknown:
-        parts += [BARS, bars_table([row for row in bars if row["met"] is not True])]
+        parts += [BARS, bars_told([row for row in bars if row["met"] is not True])]
     return "\n\n".join([*parts, *chapters]) + "\n", broken
 
 
@@ -83,7 +81,7 @@ def _machines(results: dict[str, dict[str, Any]]) -> str:
     ]
     if last["peer_packages"]:
         others = ", ".join(f"{name} {number}" for name, number in last["peer_packages"].items())
-        lines.append(f"- Other tools, in an environment of their own: {others}.")
+        lines.append(f"- Other tools, {others}.")
     dates = [machine["date"] for machine in found.values()]
     loads = [machine["load"] for machine in found.values()]
     lines.append(

@@ -112,14 +112,14 @@ def bar(text: str, value: float | None, limit: float, unit: str, form: str = ".2
 
 def verdict(met: bool | None) -> str:
     """What a bar came to, in a word."""
-    return {True: "met", False: "**missed**", None: "not measured"}[met]
+    return {True: "met", False: "missed", None: "not measured"}[met]
 
 
-def bars_table(bars: Sequence[Row]) -> str:
-    """Promises beside their figures; one that was not measured says so."""
-    lines = ["| promise | bar | measured | |", "| --- | --- | --- | --- |"]
-    lines += [
-        f"| {row['text']} | {row['bar']} | {row.get('measured', '')} | {verdict(row['met'])} |"
-        for row in bars
-    ]
-    return "\n".join(lines)
+def bars_told(bars: Sequence[Row]) -> str:
+    """Promises beside their figures, a line for those with the same bar."""
+    lines: dict[str, list[str]] = {}
+    for row in bars:
+        words = [row["text"], *([row["measured"]] if "measured" in row else [])]
+        words += [f"({verdict(row['met'])})"] if row["met"] is not False else []
+        lines.setdefault(row["bar"], []).append(" ".join(words))
+    return "\n".join(f"- bar of {limit}: {'; '.join(rows)}" for limit, rows in lines.items())

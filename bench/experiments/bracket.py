@@ -127,18 +127,17 @@ def _published(context: Context) -> dict[str, Any]:
 
 def render(result: dict[str, Any], images: Path) -> str:
     """Table 3, a plot of the stages, and what voxelisation saves."""
-    rows = [{**row, **_paper(row["cell"])} for row in result["rows"]]
+    rows = [{**row, **_beside(row["cell"], result["peers"])} for row in result["rows"]]
     columns = (
         Column("cell", "cell"),
         Column("s, cold", "seconds", ".2f"),
         Column("s, r changed", "change", ".2f"),
         Column("MB", "mb", ".1f"),
-        Column("triangles", "triangles", ","),
         Column("peak MB", "peak_mb", ",.0f"),
         Column("closed", "watertight", yes_no),
         Column("bodies", "bodies"),
-        Column("paper: s", "paper_seconds", "g"),
-        Column("paper: MB", "paper_mb", ".1f"),
+        Column(f"published method, {COARSE} points: s, MB, peak MB, bodies", "published"),
+        Column("paper: s, MB", "paper"),
     )
     stages = [row["stages"] for row in rows if "stages" in row]
     names = [row["cell"] for row in rows if "stages" in row]
@@ -149,87 +148,81 @@ def render(result: dict[str, Any], images: Path) -> str:
     )  # fmt: skip
     counts = ", ".join(f"{number} ({name})" for name, number in result.get("counts", {}).items())
     grid = " x ".join(str(n) for n in BRACKET_GRID)
+    files = [row for row in result["peers"] if row.get("mb") is not None]
+    closed = sum(row.get("watertight") is True for row in files)
     return f"""## Table 3: the GE bracket
 
-Skin of {SHELL:g} mm, L = 10, r = 1; from the file of the part to the STL of one body. "r changed": the slower of two later runs (r = {RADII[1]:g}, then {RADII[2]:g}) with the stages' results kept. The paper's times begin with the shell already made; ours make it.
+Skin of {SHELL:g} mm, L = 10, r = 1; from the file of the part to the STL of one body. "r changed": the slower of two later runs (r = {RADII[1]:g}, then {RADII[2]:g}) with the stages' results kept. The paper's times begin with the shell already made; ours make it. The published method on the same part is given our cavity and voxels (their time not included), and its cells are cut and joined by trimesh with manifold3d: {closed} of its {len(files)} files are closed.
 
-Our part is a public tessellation of the same bracket, not the paper's file: box {_box()}, grid {grid} as in the paper. The paper counts {BRACKET_ACTIVE} active cells; here the rules give {counts}. Ours fills the cells that touch the cavity.
+Box {_box()}, grid {grid} as in the paper, which counts {BRACKET_ACTIVE} active cells; the rules give {counts}. Ours fills the cells that touch the cavity.
 
 {table(columns, rows)}
 
-Seconds by stage, from cold:
-
 {plot}
-
-The published method on the same files, with our cavity and voxels (their time not included), cut and joined by trimesh with manifold3d:
-
-{_peers(result["peers"])}
 
 ## Fig. 11: with voxelisation and without
 
-Without: every cell of the part's box is meshed and goes through the Boolean. CVC; the paper's figures are from its text.
+CVC, seconds with voxelisation, then without: every cell of the part's box is meshed and goes through the Boolean. The paper's figures are from its text.
 
 {_without(result)}
 
-In this engine the lattice inside the wall is not cut at all: only the octants that the wall crosses go through the Boolean. That, more than what replication costs, is what is lost without voxels.
+In this engine only the octants that the wall crosses go through the Boolean. That, more than what replication costs, is what is lost without voxels.
 """
 
 
-def _paper(cell: str) -> Row:
+def _beside(cell: str, peers: list[Row]) -> Row:
+    """What the paper prints of a cell, and what its method comes to here."""
     seconds, mb = PUBLISHED[cell]
-    return {"paper_seconds": seconds, "paper_mb": mb}
+    row = next((row for row in peers if (row.get("cell"), row.get("points"), row.get("voxels"))
+                == (cell, COARSE, "voxels")), {})  # fmt: skip
+    forms = (("seconds", ".1f"), ("mb", ".1f"), ("peak_mb", ",.0f"), ("bodies", ""))
+    figures = [format(row[key], form) for key, form in forms if row.get(key) is not None]
+    return {"paper": f"{seconds:g}, {mb:.1f}", "published": row.get("note") or ", ".join(figures)}
 
 
 def _box() -> str:
     return "178.54 x 62.50 x 108.31 mm"
 
 
-def _peers(peers: list[Row]) -> str:
-    columns = (
-        Column("cell", "cell"),
-        Column("points", "points"),
-        Column("s", "seconds", ".1f"),
-        Column("MB", "mb", ".1f"),
-        Column("peak MB", "peak_mb", ",.0f"),
-        Column("closed", "watertight", yes_no),
-        Column("bodies", "bodies"),
-        Column("active cells", "cells_active"),
-    )
-    return table(columns, [row for row in peers if row.get("voxels") != "all"])
-
-
 def _without(result: dict[str, Any]) -> str:
+    """With voxels and without: ours, the published method here, and the paper."""
     ours = next((row for row in result["rows"] if row["cell"] == "CVC"), {})
-    peers = {
-        (row["points"], row["voxels"]): row for row in result["peers"] if row.get("cell") == "CVC"
-    }
-    bare = result["unvoxelised"]
     shown = [
-        _case("this engine", "yes", ours, ("tile", "lattice"), ("trim",)),
-        _case("this engine", "no", bare, ("replication",), ("Boolean",)),
-    ]
-    for (points, voxels), row in peers.items():
+        _case("this engine", _stages(ours, ("tile", "lattice"), ("trim",)),
+              _stages(result["unvoxelised"], ("replication",), ("Boolean",)))
+    ]  # fmt: skip
+    laid = ("isosurface", "replication", "check")
+    peers = [row for row in result["peers"] if row.get("cell") == "CVC"]
+    for points in dict.fromkeys(row["points"] for row in peers):
+        of = {row["voxels"]: _stages(row, laid, ("Boolean",)) for row in peers
+              if row["points"] == points}  # fmt: skip
         name = f"published method, {points} points, this run"
-        word = yes_no(voxels == "voxels")
-        shown.append(_case(name, word, row, ("isosurface", "replication", "check"), ("Boolean",)))
-    for (seconds, replication), word in ((WITH_VOXELS, "yes"), (WITHOUT_VOXELS, "no")):
-        shown.append(
-            {"tool": "paper", "voxels": word, "seconds": seconds, "replication": replication}
-        )
+        shown.append(_case(name, of.get("voxels", {}), of.get("all", {})))
+    paper = [dict(zip(("seconds", "replication"), row, strict=True))
+             for row in (WITH_VOXELS, WITHOUT_VOXELS)]  # fmt: skip
+    shown.append(_case("paper", *paper))
     columns = (
         Column("tool", "tool"),
-        Column("voxelisation", "voxels"),
-        Column("whole job, s", "seconds", ".2f"),
-        Column("replication, s", "replication", ".2f"),
-        Column("Boolean, s", "boolean", ".2f"),
+        Column("whole job", "seconds"),
+        Column("replication", "replication"),
+        Column("Boolean", "boolean"),
     )
     return table(columns, shown)
 
 
-def _case(tool: str, voxels: str, row: Row, laid: tuple[str, ...], cut: tuple[str, ...]) -> Row:
-    stages = row.get("stages")
-    case = {"tool": tool, "voxels": voxels, "seconds": row.get("seconds"), "note": row.get("note")}
-    if stages:
-        case["replication"] = sum(stages.get(name, 0.0) for name in laid)
-        case["boolean"] = sum(stages.get(name, 0.0) for name in cut)
+def _stages(row: Row, laid: tuple[str, ...], cut: tuple[str, ...]) -> Row:
+    """Seconds of a job and of its two stages, or why there are none."""
+    found: Row = {key: row[key] for key in ("seconds", "note") if row.get(key) is not None}
+    if row.get("stages"):
+        for key, names in (("replication", laid), ("boolean", cut)):
+            found[key] = sum(row["stages"].get(name, 0.0) for name in names)
+    return found
+
+
+def _case(tool: str, kept: Row, bare: Row) -> Row:
+    """A row of the table: each figure with voxels, and without."""
+    case: Row = {"tool": tool, "note": kept.get("note") or bare.get("note")}
+    for key in ("seconds", "replication", "boolean"):
+        pair = [format(row[key], ".2f") if key in row else "-" for row in (kept, bare)]
+        case[key] = ", ".join(pair) if pair != ["-", "-"] else None
     return case

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..measuring import Context, answer, bench_job, bracket, run
-from ..tables import Column, Row, table
+from ..tables import Row
 
 
 def measure(context: Context) -> dict[str, Any]:
@@ -27,19 +27,5 @@ def measure(context: Context) -> dict[str, Any]:
 
 
 def render(result: dict[str, Any], images: Path) -> str:
-    """The stages of each job; the functions stay in the experiment's JSON."""
-    shown = [
-        row if row.get("note") else {**row, "by_stage": _by_stage(row["stages"])}
-        for row in result["rows"]
-    ]
-    columns = (Column("job", "job"), Column("s", "seconds", ".2f"), Column("stages", "by_stage"))
-    return f"""## What remains
-
-Under cProfile, which slows Python's own calls down and sees one thread only. The functions that take most are in `build/bench/profiles.json`.
-
-{table(columns, shown)}
-"""
-
-
-def _by_stage(stages: dict[str, float]) -> str:
-    return ", ".join(f"{name} {seconds:.2f}" for name, seconds in stages.items())
+    """No chapter: stages and functions are for who makes it faster, in the experiment's JSON."""
+    return ""

@@ -56,7 +56,7 @@ def render(result: dict[str, Any], images: Path) -> str:
     notes = [row for row in result["rows"] if row.get("note")]
     return f"""## Fig. 12a: cost by stage against cell size
 
-The GE bracket with a skin of {SHELL:g} mm, CVC, r = L / 10, one process each. Closedness and bodies are the engine's own report. The paper's curves are a plot without figures in its text.
+The GE bracket with a skin of {SHELL:g} mm, CVC, r = L / 10, one process each; closedness and bodies by the engine's own report.
 
 {plot}
 

@@ -22,7 +22,7 @@ from bench.exact import block_volume  # noqa: E402
 from bench.experiments import EXPERIMENTS  # noqa: E402
 from bench.experiments.trimmed import expected_seconds  # noqa: E402
 from bench.readme import figures_table, write_into  # noqa: E402
-from bench.tables import Column, bar, bars_table, power_law, table  # noqa: E402
+from bench.tables import Column, bar, bars_told, power_law, table  # noqa: E402
 
 pytestmark = pytest.mark.skipif(
     not hasattr(os, "wait4"), reason="the benchmark runs on POSIX systems only"
@@ -52,12 +52,13 @@ def test_a_column_that_says_the_same_in_all_rows_is_told_once():
     assert table(columns, rows).splitlines()[0] == "| cell | s | bodies |"
 
 
-def test_bars_say_met_missed_and_not_measured():
-    rows = [bar("fast", 0.9, 1.0, "s"), bar("slow", 1.1, 1.0, "s"), bar("gone", None, 1.0, "s")]
-    fast, slow, gone = bars_table(rows).splitlines()[2:]
-    assert fast == "| fast | 1 s | 0.90 s | met |"
-    assert slow.endswith("| 1.10 s | **missed** |")
-    assert gone.endswith("|  | not measured |")
+def test_bars_that_are_alike_share_a_line_with_what_was_measured():
+    rows = [bar("fast", 0.9, 1.0, "s"), bar("slow", 1.1, 1.0, "s"), bar("gone", None, 1.0, "s"),
+            bar("large", 70, 64, "MB", ".0f")]  # fmt: skip
+    assert bars_told(rows).splitlines() == [
+        "- bar of 1 s: fast 0.90 s (met); slow 1.10 s; gone (not measured)",
+        "- bar of 64 MB: large 70 MB",
+    ]
 
 
 def test_the_exponent_of_a_power_law():

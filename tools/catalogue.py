@@ -21,7 +21,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.colors import Normalize
 
-from volfrep.design.cells import LIBRARY, PAPERS, USES
+from volfrep.design.cells import LIBRARY, PAPERS, USES, UnitCell
 from volfrep.mechanics import catalogue as shipped
 from volfrep.mechanics.endless import stretched_strains
 from volfrep.mechanics.materials import MATERIALS
@@ -136,43 +136,36 @@ def cells_table() -> str:
     """The library, sorted by what its cells are for, as Markdown."""
     lines = []
     for use, text in USES.items():
-        lines += [
-            f"**{text[0].upper()}{text[1:]}**\n",
-            "| cell | nodes | struts | carries load by | what it is | also called |",
-            "|---|---|---|---|---|---|",
-        ]
-        lines += [
-            f"| {cell.name} | {len(cell.nodes)} | {len(cell.struts)} | "
-            f"{'stretching' if stretched_strains(cell) == 6 else 'bending'} | {cell.about} | "
-            f"{', '.join(cell.also)} |"
-            for cell in LIBRARY.values()
-            if cell.use == use
-        ]
+        cells = [cell for cell in LIBRARY.values() if cell.use == use]
+        ways = {"stretching" if stretched_strains(cell) == 6 else "bending" for cell in cells}
+        way = ways.pop() if len(ways) == 1 else ""
+        lines.append(f"**{text[0].upper()}{text[1:]}**{f' (by {way})' if way else ''}\n")
+        lines += [f"- {cell.name} ({len(cell.struts)}): {_about(cell)}" for cell in cells]
         lines.append("")
     return "\n".join(lines[:-1])
 
 
+def _about(cell: UnitCell) -> str:
+    """What a cell is, and what others call it."""
+    return f"{cell.about}; also {', '.join(cell.also)}" if cell.also else cell.about
+
+
 def properties_table() -> str:
     """The cells at one relative density, as Markdown."""
-    lines = [
-        "| cell | r / L | E [100] | E [001] | E [110] | E [111] | G | nu | "
-        "Zener | strength | conductivity |",
-        "|---|---|---|---|---|---|---|---|---|---|---|",
-    ]
+    lines = ["| cell | r / L | E [100] | E [111] | G | strength |", "|---|---|---|---|---|---|"]
     for name, cell in shipped.catalogue().items():
         if not cell.values[0, 0] <= OF_TABLE <= cell.values[-1, 0]:
             continue
         ratio = cell.ratio_of_density(OF_TABLE)
         tensor, values = cell.tensor(ratio), cell.at(ratio)
         found, upright = moduli(tensor), young(tensor, np.eye(3)[2])
-        told = [found.E100, upright, found.E110, found.E111, found.G]
-        figures = " | ".join(f"{e:.3g}" if e > 1e-6 * upright else "0" for e in told)
-        zener = "-" if len(cell.tensors) else f"{found.zener:.3g}"
-        strength = f"{values['strength']:.3g}" if values["strength"] > 1e-12 else "0"
-        lines.append(
-            f"| {name} | {ratio:.4f} | {figures} | {found.nu:.3f} | {zener} | {strength} | "
-            f"{values['conductivity']:.3g} |"
+        edge, diagonal, shear = (
+            f"{e:.3g}" if e > 1e-6 * upright else "0" for e in (found.E100, found.E111, found.G)
         )
+        if abs(upright - found.E100) > 1e-3 * upright:
+            edge += f", z {upright:.3g}"
+        strength = f"{values['strength']:.3g}" if values["strength"] > 1e-12 else "0"
+        lines.append(f"| {name} | {ratio:.4f} | {edge} | {diagonal} | {shear} | {strength} |")
     return "\n".join(lines)
 
 

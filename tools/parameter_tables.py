@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Writes the documentation's tables of parameters from the table that the program uses.
+"""Writes the documentation's lists of parameters from the table that the program uses.
 
     .venv/bin/python tools/parameter_tables.py
 
-A table stands between two comments in a page of docs/, the first of which names its groups, or the
-commands whose other options it lists:
+A list stands between two comments in a page of docs/, the first of which names its groups, or the
+commands whose other options it has:
 
     <!-- parameters: Cell size, Strut radius -->
     <!-- end of parameters -->
@@ -32,11 +32,10 @@ _PLACE = re.compile(
 _OPTIONS = re.compile(
     r"(<!-- options: (?P<commands>[^>]*) -->\n).*?(<!-- end of options -->)", re.DOTALL
 )
-_HEAD = "| option, property | default | meaning |\n|---|---|---|\n"
 
 
 def refreshed(text: str) -> str:
-    """A page with its tables as they should be.
+    """A page with its lists as they should be.
 
     Raises:
         ValueError: it asks for a group, or a command, that there is not.
@@ -59,16 +58,16 @@ def _options(wanted: str) -> str:
             rooms.setdefault(shared, []).append(_option(row))
     lines = []
     for shared in sorted(rooms, key=lambda names: (commands.index(names[0]), -len(names))):
-        lines += [f"| **{', '.join(shared)}** | |\n", *rooms[shared]]
-    return "| option | meaning |\n|---|---|\n" + "".join(lines)
+        lines += [f"\n**{', '.join(shared)}**\n\n", *rooms[shared]]
+    return "".join(lines) + "\n"
 
 
 def _option(row: RunOption) -> str:
     shape = "|".join(row.choices) or row.shape
     names = f"-{row.short}, {row.option}" if row.short else row.option
-    option = f"{names} {shape}".strip().replace("|", "\\|")
+    option = f"{names} {shape}".strip()
     needed = (" (one is required)" if row.either else " (required)") if row.required else ""
-    return f"| `{option}` | {row.help}{needed} |\n"
+    return f"- `{option}`: {row.help}{needed}\n"
 
 
 def _table(wanted: str) -> str:
@@ -78,9 +77,9 @@ def _table(wanted: str) -> str:
         raise ValueError(f"There is no group of parameters '{strange[0]}'.")
     lines = []
     for name in names:
-        lines.append(f"| **{name}** | | |\n")
+        lines.append(f"\n### {name}\n\n")
         lines += [_row(parameter) for parameter in PARAMETERS if parameter.group == name]
-    return _HEAD + "".join(lines)
+    return "".join(lines) + "\n"
 
 
 def _row(row: Parameter) -> str:
@@ -89,9 +88,12 @@ def _row(row: Parameter) -> str:
     default = row.default_text or ("required" if row.required else "")
     if row.unit and row.default:
         default += f" {row.unit}"
+    if row.in_freecad and row.initial is not None:
+        default += f"; {row.initial} in FreeCAD"
+    told = f" ({default})" if default and (row.kind != "flag" or row.default) else ""
     needs = f" *({', '.join(map(_need, row.needs))})*" if row.needs else ""
-    names = "<br>".join([*option, *_properties(row)]).replace("|", "\\|")
-    return f"| {names} | {default} | {row.help}{_choices(row)}{needs} |\n"
+    names = ", ".join([*option, *_properties(row)])
+    return f"- {names}{told}: {row.help}{_choices(row)}{needs}\n"
 
 
 def _shape(row: Parameter) -> str:
@@ -101,14 +103,11 @@ def _shape(row: Parameter) -> str:
 
 
 def _properties(row: Parameter) -> list[str]:
-    """The property or properties, with FreeCAD's first value where the command has none."""
+    """The property or properties."""
     if not row.in_freecad:
         return []
-    names = [f"`{row.switch_name}`"] if row.switch else []
-    if not row.position_of:
-        first = f" ({row.initial})" if row.initial is not None else ""
-        names.append(f"`{row.property_name}`{first}")
-    return names
+    own = [] if row.position_of else [f"`{row.property_name}`"]
+    return [f"`{row.switch_name}`", *own] if row.switch else own
 
 
 def _choices(row: Parameter) -> str:
@@ -132,7 +131,7 @@ def _need(need: Need) -> str:
 
 
 def main() -> None:
-    """Refresh every page that has such a table."""
+    """Refresh every page that has such a list."""
     for page in sorted((ROOT / "docs").rglob("*.md")):
         text = page.read_text(encoding="utf-8")
         now = refreshed(text)

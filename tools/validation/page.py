@@ -57,17 +57,14 @@ def best(own: dict[str, Any]) -> dict[str, float]:
 
 
 def specimen_table(specimens: list[dict[str, Any]], found: dict[str, Any]) -> str:
-    """A line for each specimen: of each figure what was measured, and what is predicted."""
-    lines = [
-        f"| specimen | process, solid | size | {' | '.join(NAMES.values())} | source |\n"
-        "|---|---|---|---|---|---|---|\n"
-    ]
+    """A line for each specimen, those of one source together: measured figures and predictions."""
+    lines = [f"| specimen | {' | '.join(NAMES.values())} |\n|---|---|---|---|\n"]
+    head = ""
     for row in specimens:
+        if head != (head := f"{row['process']}, {row['material']}; {_source(row)}"):
+            lines.append(f"| **{head}** | | | |\n")
         told = " | ".join(_told(row, figure, found[row["name"]]) for figure in FIGURES)
-        lines.append(
-            f"| {row['name']} | {row['process']}, {row['material']} | {_size(row)} | {told} "
-            f"| {_source(row)} |\n"
-        )
+        lines.append(f"| {row['name']}{_size(row)} | {told} |\n")
     return "".join(lines)
 
 
@@ -84,11 +81,13 @@ def _told(row: dict[str, Any], figure: str, own: dict[str, Any]) -> str:
 
 
 def _size(row: dict[str, Any]) -> str:
+    """What a specimen's name does not say of its size."""
     if "density" in row:
-        kind = f" {row['kind']}" if "kind" in row else ""
-        return f"{row['density']:.1%} stated{kind}"
+        stated = f"{100 * row['density']:g} %"
+        kind = f" {row['kind']}" if row.get("kind", "") not in row["name"] else ""
+        return f",{kind} {stated}" if stated not in row["name"] else kind
     size = f"L {row['cell_size']:g}, " if "cell_size" in row else ""
-    text = f"{size}d {row['diameter']:g}"
+    text = f", {size}d {row['diameter']:g}"
     if "measured_diameter" in row:
         text += f", measured {row['measured_diameter']:g}"
     return f"{text} mm; {row['cells']}"
@@ -119,21 +118,19 @@ def ratios(
 
 
 def error_table(specimens: list[dict[str, Any]], found: dict[str, Any]) -> str:
-    """Mean and spread by figure, and the factor that covers nine in ten."""
+    """Mean and extremes by figure."""
     lines = [
-        "| figure | specimens | mean error | mean size of it | spread (standard deviation) | "
-        "from | to | measured over predicted, least |\n|---|---|---|---|---|---|---|---|\n"
+        "| figure | specimens | mean error | mean size of it | from, to | "
+        "measured over predicted, least |\n|---|---|---|---|---|---|\n"
     ]
     groups = [(figure, None) for figure in FIGURES]
     groups += [("young", "text"), ("strength", "text")]
     for figure, read in groups:
         error = ratios(specimens, found, figure, read) - 1.0
         name = figure if read is None else f"{figure}, the complete set only"
-        spread = f"{error.std(ddof=1):.0%}" if len(error) > 1 else ""
         lines.append(
             f"| {name} | {len(error)} | {error.mean():+.0%} | {np.abs(error).mean():.0%} "
-            f"| {spread} | {error.min():+.0%} | {error.max():+.0%} "
-            f"| {1 / (1 + error.max()):.2f} |\n"
+            f"| {error.min():+.0%}, {error.max():+.0%} | {1 / (1 + error.max()):.2f} |\n"
         )
     return "".join(lines)
 
@@ -143,8 +140,8 @@ def order_table(
 ) -> str:
     """Pairs of one series in the right order, and ratios of its largest to its smallest."""
     lines = [
-        "| series | figure | pairs in the right order | largest over smallest, measured "
-        "| of the same two, predicted |\n|---|---|---|---|---|\n"
+        "| series | pairs in the right order | largest over smallest: measured, predicted |\n"
+        "|---|---|---|\n"
     ]
     names = dict.fromkeys(row["series"] for row in specimens)
     for name, figure in itertools.product(names, FIGURES):
@@ -157,27 +154,28 @@ def order_table(
         right = sum((measured[a] - measured[b]) * (ours[a] - ours[b]) > 0 for a, b in pairs)
         top, low = int(measured.argmax()), int(measured.argmin())
         lines.append(
-            f"| {name} | {figure} | {right} of {len(pairs)} | {measured[top] / measured[low]:.2f} "
-            f"| {ours[top] / ours[low]:.2f} |\n"
+            f"| {name}, {figure} | {right} of {len(pairs)} | {measured[top] / measured[low]:.2f}, "
+            f"{ours[top] / ours[low]:.2f} |\n"
         )
     for row in series:
         low, high = row["densities"]
         lines.append(
-            f"| {row['name']}, soft polymer, {low:.1%} to {high:.1%} ({row['source']}) | young "
-            f"| 1 of 1 | {row['ratio']:.2f} | {found['growth'][row['name']]:.2f} |\n"
+            f"| {row['name']}, soft polymer, {low:.1%} to {high:.1%} ({row['source']}), young "
+            f"| 1 of 1 | {row['ratio']:.2f}, {found['growth'][row['name']]:.2f} |\n"
         )
     return "".join(lines)
 
 
 def benchmark_table(found: list[dict[str, Any]]) -> str:
     """What is known beside what was found."""
-    lines = ["| problem | known | found | off by |\n|---|---|---|---|\n"]
+    lines = ["| problem | known | found | error |\n|---|---|---|---|\n"]
+    source = ""
     for row in found:
-        off = row["found"] / row["expected"] - 1.0
-        lines.append(
-            f"| {row['name']} | {row['expected']:.4g} ({row['source']}) | {row['found']:.4g} "
-            f"| {off:+.1%} |\n"
-        )
+        error = row["found"] / row["expected"] - 1.0
+        known = f"{row['expected']:.4g}"
+        if source != (source := row["source"]):
+            known += f" ({source})"
+        lines.append(f"| {row['name']} | {known} | {row['found']:.4g} | {error:+.1%} |\n")
     return "".join(lines)
 
 

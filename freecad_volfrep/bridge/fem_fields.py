@@ -33,7 +33,19 @@ PIPELINE_NAMES = {
 }
 
 
-def field_of_result(result: App.DocumentObject, quantity: str, frame: App.Placement) -> PointField:
+def is_result(obj: App.DocumentObject) -> bool:
+    """Whether an object is the result of a solver, of either kind."""
+    return bool(
+        obj.isDerivedFrom("Fem::FemResultObject") or obj.isDerivedFrom("Fem::FemPostPipeline")
+    )
+
+
+def field_of_result(
+    result: App.DocumentObject,
+    quantity: str,
+    frame: App.Placement,
+    named: tuple[str, str] = ("RadiusResult", "RadiusColumn"),
+) -> PointField:
     """A quantity of a FEM result at the nodes of its mesh.
 
     FreeCAD meshes a part where it lies in the document, so the nodes are taken to lie where the
@@ -46,6 +58,7 @@ def field_of_result(result: App.DocumentObject, quantity: str, frame: App.Placem
             also what an empty name means) or ``PrincipalMax``; of a pipeline these, or an array of
             its own such as ``Displacement``, of which the length counts.
         frame: the coordinate system that the points are wanted in.
+        named: the properties that the result and the quantity are chosen by, for messages.
 
     Raises:
         VolfrepError: the object is no result, is empty, or lacks the quantity.
@@ -53,18 +66,18 @@ def field_of_result(result: App.DocumentObject, quantity: str, frame: App.Placem
     quantity = quantity.strip() or DEFAULT_QUANTITY
     label = result.Label
     if result.isDerivedFrom("Fem::FemPostPipeline"):
-        points, values = _of_pipeline(result, quantity)
+        points, values = _of_pipeline(result, quantity, named[1])
         place = parent_placement(result).multiply(result.Placement)
         return PointField(_placed(points, frame, place), values, source=f"{label}, {quantity}")
     if not result.isDerivedFrom("Fem::FemResultObject"):
         raise VolfrepError(
             f"'{label}' is no FEM result: choose the object with the results of a solver, such as "
-            "CCX_Results or SolverCalculiXResult, as RadiusResult."
+            f"CCX_Results or SolverCalculiXResult, as {named[0]}."
         )
     numbers = np.array(result.NodeNumbers, np.int64)
     if result.Mesh is None or not len(numbers):
         raise VolfrepError(f"The FEM result '{label}' is empty: run the solver.")
-    values = _values(result, quantity, len(numbers))
+    values = _values(result, quantity, len(numbers), named[1])
     points = _points(result, numbers)
     placed = _placed(points, frame, parent_placement(result.Mesh))
     return PointField(placed, values, source=f"{label}, {quantity}")
@@ -77,7 +90,9 @@ def _placed(points: np.ndarray, frame: App.Placement, place: App.Placement) -> n
     return placed
 
 
-def _of_pipeline(pipeline: App.DocumentObject, quantity: str) -> tuple[np.ndarray, np.ndarray]:
+def _of_pipeline(
+    pipeline: App.DocumentObject, quantity: str, column: str
+) -> tuple[np.ndarray, np.ndarray]:
     """(n, 3) points and (n,) values of the step that a pipeline shows.
 
     Raises:
@@ -97,7 +112,7 @@ def _of_pipeline(pipeline: App.DocumentObject, quantity: str) -> tuple[np.ndarra
     if name is None:
         raise VolfrepError(
             f"The FEM result '{pipeline.Label}' has no '{quantity}': choose {', '.join(found)} as "
-            "RadiusColumn."
+            f"{column}."
         )
     values = vtk_to_numpy(found[name]).astype(np.float64)
     if values.ndim == 2:
@@ -165,7 +180,7 @@ def _points(result: App.DocumentObject, numbers: np.ndarray) -> np.ndarray:
     )
 
 
-def _values(result: App.DocumentObject, quantity: str, count: int) -> np.ndarray:
+def _values(result: App.DocumentObject, quantity: str, count: int, column: str) -> np.ndarray:
     """(count,) the quantity's values; count is that of the nodes."""
     offered = {
         name: getattr(result, name)
@@ -174,7 +189,7 @@ def _values(result: App.DocumentObject, quantity: str, count: int) -> np.ndarray
     }
     filled = [name for name, values in offered.items() if len(values) == count]
     if quantity not in filled:
-        choice = f"choose {', '.join(filled)} as RadiusColumn" if filled else "run the solver"
+        choice = f"choose {', '.join(filled)} as {column}" if filled else "run the solver"
         raise VolfrepError(
             f"The FEM result '{result.Label}' has no number '{quantity}' at each of its {count} "
             f"nodes: {choice}."

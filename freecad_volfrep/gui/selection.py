@@ -14,7 +14,8 @@ A_SOLID = QT_TRANSLATE_NOOP(
 )
 AN_INFILL = QT_TRANSLATE_NOOP("VolfrepCommands", "Select one lattice infill.")
 A_SOLID_OR_SLICER_INFILL = QT_TRANSLATE_NOOP(
-    "VolfrepCommands", "Select one solid, or one slicer infill."
+    "VolfrepCommands",
+    "Select one solid, with Ctrl a FEM result or sized lattice infill, or one slicer infill.",
 )
 AN_INFILL_IN_VIEW = QT_TRANSLATE_NOOP(
     "VolfrepCommands", "Select one lattice infill that has a solid, with its 3D view in front."
@@ -53,10 +54,15 @@ def selected_solids() -> list[App.DocumentObject]:
 
 def only_solid() -> list[App.DocumentObject]:
     """The one solid that is shown, where nothing is selected and there is no other; else none."""
+    return [] if Gui.Selection.getSelection() else only_shown_solid()
+
+
+def only_shown_solid() -> list[App.DocumentObject]:
+    """The one solid that is shown, where there is no other; else none."""
     from freecad_volfrep.bridge.solids import is_fillable, resolve_base
     from freecad_volfrep.features import LatticeInfill, PrintCheck, SlicerInfill
 
-    if App.ActiveDocument is None or Gui.Selection.getSelection():
+    if App.ActiveDocument is None:
         return []
     found: dict[App.DocumentObject, None] = {}
     for obj in App.ActiveDocument.Objects:

@@ -5,11 +5,12 @@ import zipfile
 
 import FreeCAD as App
 import pytest
+from test_freecad_grading import STRESS, result_of
 
 from freecad_volfrep import make_slicer_infill, save_project
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features import SlicerInfill
-from freecad_volfrep.features.export.slicer_infill import UP_TO_DATE, pieces_of
+from freecad_volfrep.features.export.slicer_infill import UP_TO_DATE, pieces_of, source_of
 from freecad_volfrep.features.properties.quantities import mass_of
 from volfrep.util.errors import VolfrepError
 
@@ -114,6 +115,34 @@ def test_what_it_refuses(doc, box, bands, infill, tmp_path):
     assert "number of bands" in bands.Status
     with pytest.raises(VolfrepError, match="no property 'Colour'"):
         make_slicer_infill(doc, box, Colour=1)
+
+
+def test_bands_follow_a_fem_result(doc, box, tmp_path):
+    """10 MPa at one end and 80 at the other, alike on both sides of the middle at x = 15."""
+    result = result_of(doc, STRESS)
+    obj = make_slicer_infill(
+        doc, box, Follows="FEM result", FieldObject=result, Bands=2, DensityEnd=50, Walls=0,
+        TopLayers=0, BottomLayers=0,
+    )  # fmt: skip
+    doc.recompute()
+    assert obj.Status == UP_TO_DATE
+    assert source_of(result) == obj.Follows
+    low, high = obj.BandDensities
+    assert low + high == pytest.approx(60, abs=0.5)
+    (band,) = pieces_of(obj, is_placed=True)[1:]
+    assert band.bounds[0, 0] == pytest.approx(15, abs=0.1)
+    save_project(obj, tmp_path / "part.3mf")
+    before = obj.FilamentVolume.Value
+    result.vonMises = [10.0, 80.0, 80.0, 80.0, 80.0, 80.0]
+    doc.recompute()
+    assert obj.FilamentVolume.Value > 1.05 * before, "it follows the result"
+    obj.FieldColumn = "Temperature"
+    doc.recompute()
+    assert "no number 'Temperature'" in obj.Status
+    assert "choose vonMises as FieldColumn" in obj.Status
+    obj.FieldColumn, obj.FieldObject = "", box
+    doc.recompute()
+    assert "as FieldObject" in obj.Status
 
 
 def test_bands_of_a_sized_lattice(doc, box, infill):

@@ -29,6 +29,7 @@ from driving import (
     run_checks,
     select,
     settle,
+    show_tasks,
     slow,
     toolbar_button,
     wait_until,
@@ -159,6 +160,77 @@ def change_bands(doc, box):
     doc.redo()
     settle()
     check("redo too", max(made.BandDensities) > max(densities))
+
+
+def bent(doc):
+    """The stress that a solver would leave of a beam along x that is held at x = 0."""
+    import Fem
+    import ObjectsFem
+
+    places = [(x, y, z) for x in range(0, 41, 5) for y in (0, 30) for z in (0, 10, 20)]
+    mesh = Fem.FemMesh()
+    for number, place in enumerate(places, 1):
+        mesh.addNode(*place, number)
+    holder = doc.addObject("Fem::FemMeshObject", "ResultMesh")
+    holder.FemMesh = mesh
+    holder.Visibility = False
+    result = ObjectsFem.makeResultMechanical(doc, "CCX_Results")
+    result.Mesh, result.NodeNumbers = holder, list(range(1, len(places) + 1))
+    result.vonMises = [(40.0 - x) * abs(z - 10) / 4.0 for x, _, z in places]
+    doc.recompute()
+    return result
+
+
+@slow
+def follow_a_result(doc, box):
+    """Bands of a FEM result: clicked in the tree with the solid, alone, and from the open panel."""
+    result = bent(doc)
+    click_in_tree(box.Label)
+    xdotool("keydown", "ctrl")
+    try:
+        click_in_tree(result.Label)
+    finally:
+        xdotool("keyup", "ctrl")
+    check("both are selected", len(Gui.Selection.getSelection()) == 2)
+    click(toolbar_button("Slicer Infill"))
+    check("the panel opens", wait_until(lambda: form("VolfrepSlicerPanel") is not None, 10))
+    made = doc.getObject("SlicerInfill")
+    check("of the solid", made.Base == box, made.Base.Label)
+    check("it follows the result", part("Follows").currentText() == "FEM result")
+    check("that was clicked", part("FieldObject").currentText() == result.Label)
+    check("and offers nothing else", part("FieldObject").count() == 1)
+    picture("slicer_result_panel")
+    click(part("ShowBands"))
+    check("bands are cut", wait_until(lambda: len(made.BandDensities) >= 3, 60), made.Status)
+    picture("slicer_result_bands")
+    type_into(part("FieldColumn"), "Temperature")
+    click(part("ShowBands"))
+    said = wait_until(lambda: "choose vonMises" in part("Said").text(), 20)
+    check("another quantity is told by its field", said, part("Said").text())
+    answer_panel("Cancel")
+    wait_until(lambda: form("VolfrepSlicerPanel") is None)
+    settle()
+    check("Cancel leaves nothing", doc.getObject("SlicerInfill") is None)
+    click_in_tree(result.Label)
+    click(toolbar_button("Slicer Infill"))
+    wait_until(lambda: form("VolfrepSlicerPanel") is not None)
+    made = doc.getObject("SlicerInfill")
+    check("alone it means the only solid", (made.Base, made.FieldObject) == (box, result))
+    answer_panel("Cancel")
+    wait_until(lambda: form("VolfrepSlicerPanel") is None)
+    select(box)
+    click(toolbar_button("Slicer Infill"))
+    wait_until(lambda: form("VolfrepSlicerPanel") is not None)
+    check("without it the depth counts", not part("FieldObject").isVisible())
+    click_in_tree(result.Label)
+    made = doc.getObject("SlicerInfill")
+    picture("slicer_result_tree")
+    show_tasks()
+    check("a click in the tree chooses it", part("Follows").currentText() == "FEM result")
+    answer_panel("OK")
+    check("the panel closes", wait_until(lambda: form("VolfrepSlicerPanel") is None, 60))
+    check("the bands follow it", made.FieldObject == result and len(made.BandDensities) >= 3)
+    picture("slicer_result")
 
 
 @slow
@@ -367,6 +439,7 @@ run_checks(
         find_a_cell: boxed,
         bands_that_follow: boxed,
         change_bands: boxed,
+        follow_a_result: boxed,
         within_limits: boxed,
     },
 )

@@ -572,9 +572,18 @@ def choose_in_context_menu(obj, *texts):
 
 def show_model():
     """The tree and the properties in front: FreeCAD 1.0 may leave the empty tasks there."""
+    _show_tab("Model")
+
+
+def show_tasks():
+    """The open task panel in front again, where the tree has taken its place."""
+    _show_tab("Tasks")
+
+
+def _show_tab(name):
     for bar in Gui.getMainWindow().findChildren(QtGui.QTabBar):
         for tab in range(bar.count()):
-            if bar.tabText(tab) == "Model":
+            if bar.tabText(tab) == name:
                 bar.setCurrentIndex(tab)
     settle()
 

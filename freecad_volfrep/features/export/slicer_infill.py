@@ -247,6 +247,17 @@ def make_slicer_infill(
     return obj
 
 
+def source_of(obj: App.DocumentObject) -> str:
+    """Which of `FOLLOWS` a density can follow an object by; empty for none."""
+    from freecad_volfrep.bridge.fem_fields import is_result
+    from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+
+    if is_result(obj):
+        return "FEM result"
+    is_sized = isinstance(getattr(obj, "Proxy", None), LatticeInfill) and obj.SizedRadii
+    return "Sized lattice" if is_sized else ""
+
+
 def wanted_of(obj: App.DocumentObject) -> BandedInfill:
     """The densities and the print that the object's properties stand for.
 
@@ -355,7 +366,8 @@ def _field(obj: App.DocumentObject, follows: str) -> tuple[PointField, str]:
             "FieldObject."
         )
     if follows == "result":
-        return field_of_result(source, obj.FieldColumn, App.Placement()), curve
+        named = ("FieldObject", "FieldColumn")
+        return field_of_result(source, obj.FieldColumn, App.Placement(), named), curve
     from freecad_volfrep.bridge.solids import parent_placement
     from volfrep.design.scattered_field import PointField
     from volfrep.jobs.figures.sized_density import sized_densities

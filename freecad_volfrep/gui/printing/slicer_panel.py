@@ -13,8 +13,8 @@ from freecad_volfrep.features.export.slicer_infill import (
     FOLLOWS,
     MATERIALS,
     SLICERS,
+    source_of,
 )
-from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
 from freecad_volfrep.features.properties.quantities import mass_of
 from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.qt import OK_CANCEL, QtGui, QtWidgets
@@ -72,6 +72,9 @@ _LABELS = {
     "LayerHeight": QT_TRANSLATE_NOOP("VolfrepSlicer", "Layer height"),
     "Filament": QT_TRANSLATE_NOOP("VolfrepSlicer", "Filament"),
 }
+#: What the empty lines show; the others find their value themselves.
+_EXAMPLES = {"Formula": "10 + z", "Curve": "0:10, 80:60"}
+_PANEL = "VolfrepTaskPanel"
 _KINDS = QT_TRANSLATE_NOOP("VolfrepSlicer", "Fields (*.csv *.txt *.vtu *.vtk)")
 
 
@@ -92,6 +95,17 @@ class SlicerPanel:
         self._read()
         self._show_fields()
         self._show_bands()
+        Gui.Selection.addObserver(self)
+
+    def addSelection(self, doc: str, name: str, sub: str, place: Any) -> None:  # noqa: N802
+        """Called by FreeCAD: a click in the tree at what the density can follow chooses it."""
+        del sub, place
+        source = self._doc.getObject(name) if doc == self._doc.Name else None
+        follows = "" if source is None else source_of(source)
+        if follows:
+            self._fields["Follows"].setCurrentIndex(self._fields["Follows"].findData(follows))
+            box = self._fields["FieldObject"]
+            box.setCurrentIndex(box.findData(name))
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""
@@ -131,6 +145,7 @@ class SlicerPanel:
         return bool(holds)
 
     def _close(self) -> None:
+        Gui.Selection.removeObserver(self)
         Gui.Control.closeDialog()
         gui = Gui.getDocument(self._doc.Name)
         if gui is not None and gui.getInEdit() is not None:
@@ -224,10 +239,12 @@ class SlicerPanel:
             "Pattern": {word: word for word in PATTERNS},
             "Filament": {word: word for word in MATERIALS},
             "Direction": _AXES,
-            "FieldObject": {one.Label: one.Name for one in self._sources()},
+            "FieldObject": {},
         }
         if name not in choices:
-            return QtWidgets.QLineEdit()
+            line = QtWidgets.QLineEdit()
+            line.setPlaceholderText(_EXAMPLES.get(name) or translate(_PANEL, "automatic"))
+            return line
         box = QtWidgets.QComboBox()
         narrow(box)
         for text, value in choices[name].items():
@@ -236,15 +253,15 @@ class SlicerPanel:
             box.currentIndexChanged.connect(lambda _: self._show_fields())
         return box
 
-    def _sources(self) -> list[App.DocumentObject]:
-        """Objects that a field can come from."""
-        return [
-            one
-            for one in self._doc.Objects
-            if one.isDerivedFrom("Fem::FemResultObject")
-            or one.isDerivedFrom("Fem::FemPostPipeline")
-            or (isinstance(getattr(one, "Proxy", None), LatticeInfill) and one.SizedRadii)
-        ]
+    def _offer_sources(self) -> None:
+        """The objects that the density can follow by the present choice."""
+        box, follows = self._fields["FieldObject"], self._fields["Follows"].currentData()
+        chosen = box.currentData()
+        box.clear()
+        for one in self._doc.Objects:
+            if source_of(one) == follows:
+                box.addItem(one.Label, one.Name)
+        box.setCurrentIndex(max(box.findData(chosen), 0))
 
     def _read(self) -> None:
         """What the object has, into the fields."""
@@ -273,7 +290,7 @@ class SlicerPanel:
             if isinstance(field, QtWidgets.QLineEdit):
                 value: Any = field.text().strip()
             elif isinstance(field, FileField):
-                value = field.findChild(QtWidgets.QLineEdit).text().strip()
+                value = field.path
             elif name in _LENGTHS:
                 value = float(field.property("rawValue"))
             elif name == "Direction":
@@ -296,6 +313,7 @@ class SlicerPanel:
         """Only those that have an effect."""
         if "Filament" not in self._fields:
             return  # not all are there
+        self._offer_sources()
         for name, row in self._rows.items():
             row.setVisible(self._applies(name))
 
@@ -318,7 +336,7 @@ class SlicerPanel:
         ):
             red, green, blue = (round(255 * part) for part in colour)
             swatch = f"<span style='color: rgb({red},{green},{blue})'>&#9632;</span> {number}"
-            cells = (swatch, f"{mean:.1f} %", f"{told:.1f} %", f"{grouped(round(volume))} mm\u00b3")
+            cells = (swatch, f"{mean:.1f} %", f"{told:.1f} %", f"{grouped(round(volume))}\u00a0mm\u00b3")
             lines.append("".join(f"<td align='right'>{cell}&nbsp;</td>" for cell in cells))
         table = "".join(f"<tr>{line}</tr>" for line in lines)
         told = translate(

@@ -2149,8 +2149,8 @@
       <translation>Einen oder mehrere Körper auswählen: Körper, Part, Verknüpfung dazu oder geschlossenes Netz.</translation>
     </message>
     <message>
-      <source>Select one solid, or one slicer infill.</source>
-      <translation>Einen Körper oder eine Slicer-Füllung auswählen.</translation>
+      <source>Select one solid, with Ctrl a FEM result or sized lattice infill, or one slicer infill.</source>
+      <translation>Einen Körper auswählen, mit Strg ein FEM-Ergebnis oder eine bemessene Gitterfüllung dazu, oder eine Slicer-Füllung.</translation>
     </message>
     <message>
       <source>There is no lattice infill in this document: make one first.</source>

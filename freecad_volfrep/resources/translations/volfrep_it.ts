@@ -2149,8 +2149,8 @@
       <translation>Selezionare uno o più solidi: un Corpo, una Parte, un collegamento, una mesh chiusa.</translation>
     </message>
     <message>
-      <source>Select one solid, or one slicer infill.</source>
-      <translation>Selezionare un solido, o un riempimento per slicer.</translation>
+      <source>Select one solid, with Ctrl a FEM result or sized lattice infill, or one slicer infill.</source>
+      <translation>Selezionare un solido, con Ctrl anche un risultato FEM o un riempimento reticolare dimensionato, oppure un riempimento per slicer.</translation>
     </message>
     <message>
       <source>There is no lattice infill in this document: make one first.</source>

@@ -28,6 +28,7 @@ from driving import (
     run_checks,
     select,
     settle,
+    shades,
     slow,
     toolbar_button,
     wait_until,
@@ -174,6 +175,12 @@ def tell_what_is_wrong(doc, infill):
     select(infill)
     click(toolbar_button("Design Study"))
     wait_until(lambda: form() is not None, 10)
+    said = part("StudyPlot").said_of_none
+    check("an empty plot says what to do", said.startswith("Not run yet") and "Start" in said, said)
+    picture("study_empty")
+    is_blank = shades("study_empty", part("StudyPlot")) < 3
+    check("it is drawn", not is_blank)
+    check("there are no axes to choose", not part("Across").isEnabled())
     type_into("Values2", "a few")
     click(part("Start"))
     told = wait_until(lambda: "'a few' is no length" in part("Picked").text(), 10)

@@ -8,12 +8,12 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from freecad_volfrep.gui.qt import QtCore, QtGui, QtWidgets
+from freecad_volfrep.gui.widgets.plot_colours import plot_colours
 
 #: Room for the axes' numbers, px: left, top, right, bottom.
 MARGINS = (64, 10, 12, 36)
 #: A click within so many px of a point picks it.
 NEAR = 12
-_INK, _GRID, _CURVE = "#303030", "#dde1e8", "#b4bcc8"
 _FOUND, _PICKED, _WANTED = "#0072b2", "#d00020", "#009e73"
 
 #: A place of the chart: density and modulus.
@@ -39,6 +39,7 @@ class CellChart(QtWidgets.QWidget):
         self._names: list[str] = []
         self._wanted: tuple[float | None, float | None] = None, None
         self._chosen = -1
+        self._colours = plot_colours(self)
 
     def show_curves(
         self, curves: Mapping[str, tuple[Sequence[float], Sequence[float]]], words: tuple[str, str]
@@ -91,10 +92,11 @@ class CellChart(QtWidgets.QWidget):
         """Draw axes, curves, what is wanted and the answers."""
         painter = QtGui.QPainter(self)
         painter.setRenderHint(QtGui.QPainter.Antialiasing)
-        painter.fillRect(self.rect(), QtGui.QColor("white"))
+        self._colours = plot_colours(self)
+        painter.fillRect(self.rect(), self._colours.paper)
         if self._curves:
             self._draw_axes(painter)
-            painter.setPen(QtGui.QPen(QtGui.QColor(_CURVE), 1.4))
+            painter.setPen(QtGui.QPen(self._colours.faint, 1.4))
             for densities, moduli in self._curves.values():
                 places = map(self._at, zip(densities, moduli, strict=True))
                 painter.drawPolyline(QtGui.QPolygonF(list(places)))
@@ -107,20 +109,20 @@ class CellChart(QtWidgets.QWidget):
         width, height = self.width(), self.height()
         for value in _marks(*self._span(0)):
             x = self._at((value, self._span(1)[0])).x()
-            painter.setPen(QtGui.QColor(_GRID))
+            painter.setPen(self._colours.grid)
             painter.drawLine(QtCore.QPointF(x, top), QtCore.QPointF(x, height - bottom))
-            painter.setPen(QtGui.QColor(_INK))
+            painter.setPen(self._colours.ink)
             box = QtCore.QRectF(x - 40, height - bottom + 2, 80, 14)
             painter.drawText(box, int(QtCore.Qt.AlignHCenter), f"{100.0 * value:g} %")
         for value in _marks(*self._span(1)):
             y = self._at((self._span(0)[0], value)).y()
-            painter.setPen(QtGui.QColor(_GRID))
+            painter.setPen(self._colours.grid)
             painter.drawLine(QtCore.QPointF(left, y), QtCore.QPointF(width - right, y))
-            painter.setPen(QtGui.QColor(_INK))
+            painter.setPen(self._colours.ink)
             box = QtCore.QRectF(12, y - 7, left - 17, 14)
             flags = QtCore.Qt.AlignRight | QtCore.Qt.AlignVCenter
             painter.drawText(box, int(flags), f"{value:g}")
-        painter.setPen(QtGui.QColor(_INK))
+        painter.setPen(self._colours.ink)
         frame = QtCore.QRectF(left, top, width - left - right, height - top - bottom)
         painter.drawRect(frame)
         line = QtCore.QRectF(left, height - 17, frame.width(), 15)
@@ -165,7 +167,7 @@ class CellChart(QtWidgets.QWidget):
                 side = QtCore.Qt.AlignRight if is_right else QtCore.Qt.AlignLeft
                 box = QtCore.QRectF(place.x() - 190 if is_right else place.x() + 12,
                                     place.y() - 20, 178, 16)  # fmt: skip
-                painter.setPen(QtGui.QColor(_INK))
+                painter.setPen(self._colours.ink)
                 painter.drawText(box, int(side), self._names[number])
 
     def _at(self, place: Place) -> QtCore.QPointF:

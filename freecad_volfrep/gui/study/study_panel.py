@@ -36,6 +36,7 @@ from freecad_volfrep.gui.widgets.panel_manners import (
     fits_any_width,
     leave_the_wheel,
 )
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, translate
 from volfrep.util.errors import VolfrepError
 
@@ -293,11 +294,12 @@ class StudyPanel:
                 choice.addItem(self._in_words(name), name)
             shown = [name for name in (before, *wanted) if name in numeric]
             choice.setCurrentIndex(choice.findData(shown[0]) if shown else -1)
+            choice.setEnabled(bool(numeric))
             choice.blockSignals(False)
         self._picked = None
         self._applies.setEnabled(False)
         self._page.setEnabled((Path(self._obj.Folder or "/none") / "index.html").is_file())
-        self._say(self._obj.Status)
+        self._say(self._obj.Status if rows else "")  # the plot itself says that there are none
         self._show_plot()
 
     def _show_plot(self) -> None:
@@ -355,7 +357,7 @@ class StudyPanel:
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._text.setStyleSheet(WRONG if wrong else "")
-        self._text.setText(text)
+        self._text.setText(localise(text))
 
 
 def open_study(obj: App.DocumentObject) -> bool:

@@ -8,11 +8,15 @@ from collections.abc import Callable
 from typing import Any
 
 from freecad_volfrep.gui.qt import QtCore, QtGui, QtWidgets
+from freecad_volfrep.gui.widgets.plot_colours import plot_colours
+from freecad_volfrep.translation import translate
 
 #: Room for the axes' numbers, px: left, top, right, bottom.
 MARGINS = (72, 12, 14, 38)
 #: A click within so many px of a point picks it.
 NEAR = 14
+#: Room about what is said where there is no point, px.
+EMPTY = 16
 #: Lines of the grid along each axis, about.
 LINES = 4
 #: Colours that are told apart by most eyes (Okabe & Ito, Color Universal Design, 2008).
@@ -37,6 +41,11 @@ class StudyPlot(QtWidgets.QWidget):
         self._words = ["", ""]
         self._colour = ""
         self._chosen: str | None = None
+        self._drawn_in = plot_colours(self)
+        #: What is said in the place of points, where there are none.
+        self.said_of_none = translate(
+            "VolfrepStudy", "Not run yet: choose what varies, then press Start."
+        )
 
     def show_rows(
         self, rows: list[dict[str, Any]], axes: tuple[str, str], words: list[str], colour: str
@@ -85,8 +94,13 @@ class StudyPlot(QtWidgets.QWidget):
         """Draw axes and points."""
         painter = QtGui.QPainter(self)
         painter.setRenderHint(QtGui.QPainter.Antialiasing)
-        painter.fillRect(self.rect(), QtGui.QColor("white"))
+        self._drawn_in = plot_colours(self)
+        painter.fillRect(self.rect(), self._drawn_in.paper)
         if not self._rows:
+            painter.setPen(self._drawn_in.ink)
+            room = self.rect().adjusted(EMPTY, EMPTY, -EMPTY, -EMPTY)
+            flags = QtCore.Qt.AlignCenter | QtCore.Qt.TextWordWrap
+            painter.drawText(room, int(flags), self.said_of_none)
             painter.end()
             return
         self._draw_axes(painter)
@@ -99,7 +113,7 @@ class StudyPlot(QtWidgets.QWidget):
             painter.drawEllipse(place, 3.5, 3.5)
             painter.setBrush(QtCore.Qt.NoBrush)
             if row["chosen"]:
-                painter.setPen(QtGui.QPen(QtGui.QColor("#303030"), 1.0))
+                painter.setPen(QtGui.QPen(self._drawn_in.ink, 1.0))
                 painter.drawEllipse(place, 6.0, 6.0)
             if row["key"] == self._chosen:
                 painter.setPen(QtGui.QPen(QtGui.QColor("#d00020"), 2.4))
@@ -110,7 +124,7 @@ class StudyPlot(QtWidgets.QWidget):
     def _draw_axes(self, painter: Any) -> None:
         left, top, right, bottom = MARGINS
         width, height = self.width(), self.height()
-        ink, grid = QtGui.QColor("#303030"), QtGui.QColor("#dde1e8")
+        ink, grid = self._drawn_in.ink, self._drawn_in.grid
         for k, name in enumerate(self._axes):
             low, high = self._span(name)
             for value in _round_values(low, high):
@@ -153,7 +167,7 @@ class StudyPlot(QtWidgets.QWidget):
             painter.setPen(QtCore.Qt.NoPen)
             painter.setBrush(QtGui.QColor(COLOURS[line]))
             painter.drawEllipse(QtCore.QPointF(MARGINS[0] + 9, y + 4), 3.5, 3.5)
-            painter.setPen(QtGui.QColor("#303030"))
+            painter.setPen(self._drawn_in.ink)
             painter.drawText(QtCore.QPointF(MARGINS[0] + 17, y + 8), str(word))
 
     def _span(self, name: str) -> tuple[float, float]:

@@ -9,6 +9,7 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.gui.messages import show_error
 from freecad_volfrep.gui.qt import QtCore, QtGui, QtSvg, QtWidgets
+from freecad_volfrep.gui.widgets.plot_colours import in_theme, plot_colours
 from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
 from volfrep.util.files import replacing
@@ -17,7 +18,7 @@ _SVG = "SVG (*.svg)"
 
 
 class PlotWindow(QtWidgets.QDialog):
-    """An SVG picture and a button that saves it.
+    """An SVG picture in the window's colours, and a button that saves it on white.
 
     Args:
         title: of the window.
@@ -31,9 +32,10 @@ class PlotWindow(QtWidgets.QDialog):
         self.setWindowTitle(title)
         self._svg = svg
         # By Qt's own renderer: its images' plugin for SVG is not there in every distribution.
-        drawn = QtSvg.QSvgRenderer(QtCore.QByteArray(svg.encode()))
+        self.ensurePolished()
+        drawn = QtSvg.QSvgRenderer(QtCore.QByteArray(in_theme(svg, self).encode()))
         picture = QtGui.QPixmap(drawn.defaultSize())
-        picture.fill(QtCore.Qt.white)
+        picture.fill(plot_colours(self).paper)
         painter = QtGui.QPainter(picture)
         drawn.render(painter)
         painter.end()

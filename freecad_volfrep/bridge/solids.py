@@ -43,6 +43,15 @@ def is_fillable(obj: App.DocumentObject) -> bool:
     return False
 
 
+def surface_of(obj: App.DocumentObject) -> Part.Shape | None:
+    """The shape of an object that has faces and no solid; None for any other."""
+    target = _linked(resolve_base(obj))
+    if target is None or not target.isDerivedFrom("Part::Feature") or target.Shape.isNull():
+        return None
+    shape = target.Shape
+    return shape if shape.Faces and not shape.Solids else None
+
+
 def parent_placement(obj: App.DocumentObject) -> App.Placement:
     """Placement of the coordinate system that `obj.Placement` refers to: its App::Part's."""
     parent = obj.getParentGeoFeatureGroup()

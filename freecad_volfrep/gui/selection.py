@@ -6,7 +6,7 @@ from __future__ import annotations
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 
 #: What the functions below look for, as sentences for who has not selected it.
 A_SOLID = QT_TRANSLATE_NOOP(
@@ -40,6 +40,29 @@ A_MESH = QT_TRANSLATE_NOOP(
 A_COMPUTED_INFILL_IN_VIEW = QT_TRANSLATE_NOOP(
     "VolfrepCommands", "Select one lattice infill that is computed, with its 3D view in front."
 )
+
+#: Of what is selected and has surfaces only, by whether these are closed.
+_OPEN = QT_TRANSLATE_NOOP(
+    "VolfrepCommands",
+    "'{label}' is an open surface, which encloses nothing: close it or give it a thickness, and "
+    "convert it to a solid (Part > Convert to solid).",
+)
+_CLOSED = QT_TRANSLATE_NOOP(
+    "VolfrepCommands",
+    "'{label}' is a closed surface and not a solid yet: convert it (Part > Convert to solid).",
+)
+
+
+def why_no_solid() -> str:
+    """Why what is selected is nothing to fill, where that is a surface; else empty."""
+    from freecad_volfrep.bridge.solids import surface_of
+
+    for obj in Gui.Selection.getSelection():
+        surface = surface_of(obj)
+        if surface is not None:
+            text = _CLOSED if surface.isClosed() else _OPEN
+            return str(translate("VolfrepCommands", text).format(label=obj.Label))
+    return ""
 
 
 def selected_solids() -> list[App.DocumentObject]:

@@ -9,6 +9,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import FreeCADGui as Gui
+import Part
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -80,6 +81,16 @@ def see_why_commands_are_grey(doc, box):
     picture("toolbar")
     select(box)
     check("no more once it is there", "\u2192" not in toolbar_button("Lattice Infill").toolTip())
+    for label, faces, word in (("Sheet", 5, "open surface"), ("Hull", 6, "closed surface")):
+        surface = doc.addObject("Part::Feature", label)
+        surface.Shape = Part.makeShell(box.Shape.Faces[:faces])
+        doc.recompute()
+        select(surface)
+        for text in ("Lattice Infill", "Slicer Infill", "Build Direction", "Loads and Sizing"):
+            tip = toolbar_button(text).toolTip()
+            check(
+                f"{text} says what is wrong with {label}", f"'{label}'" in tip and word in tip, tip
+            )
 
 
 @slow

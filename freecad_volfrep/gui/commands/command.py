@@ -37,6 +37,7 @@ class Command:
         computes: whether it needs the engine's packages.
         of_mesh: whether it uses the mesh of what is selected, so that one which is out of date is
             asked about: ``as it is`` may be, or ``fresh`` only; empty where it does not.
+        explain: in place of `wanted`, what is wrong with what is selected; empty for nothing.
     """
 
     name: str
@@ -49,6 +50,7 @@ class Command:
     wanted: str = ""
     computes: bool = True
     of_mesh: str = ""
+    explain: Callable[[], str] = str
 
     def GetResources(self) -> dict[str, str]:  # noqa: N802
         """Icon, texts, shortcut, and the address of the help page."""
@@ -72,7 +74,7 @@ class Command:
         if Gui.Control.activeDialog():
             return str(translate("VolfrepCommands", PANEL_OPEN))
         if self.selected() is None:
-            return str(translate("VolfrepCommands", self.wanted))
+            return self.explain() or str(translate("VolfrepCommands", self.wanted))
         return ""
 
     def Activated(self) -> None:  # noqa: N802

@@ -27,6 +27,7 @@ from freecad_volfrep.gui.selection import (
     selected_infill_or_study,
     selected_mesh,
     selected_or_all_infills,
+    why_no_solid,
 )
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 
@@ -83,6 +84,7 @@ _TABLE = (
         fillable_selection,
         fill_solids,
         A_SOLID,
+        explain=why_no_solid,
     ),
     Command(
         "VOLFREP_Edit",
@@ -145,6 +147,7 @@ _TABLE = (
         solid_or_slicer_infill,
         slicer_infill,
         A_SOLID_OR_SLICER_INFILL,
+        explain=why_no_solid,
     ),
     Command(
         "VOLFREP_Coupons",
@@ -168,6 +171,7 @@ _TABLE = (
         orient_part,
         AN_INFILL_OR_SOLID_IN_VIEW,
         of_mesh="as it is",
+        explain=why_no_solid,
     ),
     Command(
         "VOLFREP_CheckMesh",
@@ -284,6 +288,7 @@ _TABLE = (
         infill_or_solid_in_view,
         size_lattice,
         AN_INFILL_OR_SOLID_IN_VIEW,
+        explain=why_no_solid,
     ),
     Command(
         "VOLFREP_StrutResults",

@@ -7,7 +7,8 @@
 #     tools/run_gui.sh --list tests/gui/drive_lattice_infill.py       # their names
 # MARK chooses by the checks' marks, as pytest's -m: "not slow" leaves out those marked as slow.
 # The exit code is the one that the script leaves with (by os._exit), or 124 after GUI_TIMEOUT
-# seconds. Real clicks can go astray on a busy machine, so a check that fails has a second try on
+# seconds. GUI_SCREEN is the size of the screen (1400x900). Real clicks can go astray on a busy
+# machine, so a check that fails has a second try on
 # its own (GUI_TRIES=1: none): what held only then is told in lines that begin with AGAIN. Pictures and figures go to GUI_OUT (default: build/gui). Every run has a screen and a
 # profile of its own, which are gone afterwards: none finds what another one left.
 set -euo pipefail
@@ -39,7 +40,7 @@ export FREECAD_USER_HOME=$own
 
 # The server looks for a free number itself and tells it once it can be used.
 mkfifo "$own/number"
-Xvfb -displayfd 7 -screen 0 1400x900x24 -dpi 96 -nolisten tcp 7>"$own/number" 2>"$own/screen.log" &
+Xvfb -displayfd 7 -screen 0 "${GUI_SCREEN:-1400x900}x24" -dpi 96 -nolisten tcp 7>"$own/number" 2>"$own/screen.log" &
 screen=$!
 read -r number <"$own/number" || { cat "$own/screen.log" >&2; exit 1; }
 export DISPLAY=:$number

@@ -63,13 +63,14 @@ def install(obj: App.DocumentObject, job: MeshJob, filled: FilledMesh, mesh: Mes
 
     made = with_radius(job.spec, filled.report.target)
     obj.Proxy.made = made_of(filled)
-    placement = obj.Placement
-    obj.Mesh = mesh
-    obj.Placement = placement  # assigning a mesh also assigns the mesh's placement
     _write_results(obj, filled.report)
     if job.spec.target is not None:
         tell_driven(obj, *_thickness(made))
     obj.Fingerprint = job.fingerprint
+    # Last: whatever follows a new mesh, as its colours do, asks what it is of.
+    placement = obj.Placement
+    obj.Mesh = mesh
+    obj.Placement = placement  # assigning a mesh also assigns the mesh's placement
 
 
 def with_radius(spec: LatticeSpec, found: dict[str, Any] | None) -> LatticeSpec:

@@ -27,7 +27,8 @@ from freecad_volfrep.gui.widgets.panel_manners import (
     fits_any_width,
     leave_the_wheel,
 )
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, translate
+from freecad_volfrep.sentences import localise
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, spoken, translate
 from volfrep.util.errors import VolfrepError
 
 if TYPE_CHECKING:
@@ -37,7 +38,6 @@ _CONTEXT = "VolfrepOrient"
 HEADS = (
     QT_TRANSLATE_NOOP("VolfrepOrient", "overhang"),
     QT_TRANSLATE_NOOP("VolfrepOrient", "height"),
-    QT_TRANSLATE_NOOP("VolfrepOrient", "up"),
 )
 #: The arrow's length over the part's diagonal; how near facets are drawn before the part.
 ARROW, NEARER = 0.5, 4e-4
@@ -171,9 +171,8 @@ class OrientPanel:
         self._table.blockSignals(True)
         self._table.setRowCount(len(rows))
         for number, one in enumerate(rows):
-            up = ", ".join(f"{part:.2f}" for part in one.up)
             over, height = figure(one.overhang_mm2, 3), figure(one.height_mm, 3)
-            texts = (f"{over} mm\u00b2", f"{height} mm", up)
+            texts = (f"{over} mm\u00b2", f"{height} mm")
             for place, text in enumerate(texts):
                 self._table.setItem(number, place, QtWidgets.QTableWidgetItem(text))
         name = translate(_CONTEXT, "now")
@@ -199,14 +198,16 @@ class OrientPanel:
             return
         text = translate(
             _CONTEXT,
-            "{inside} mm\u00b2 of it in closed rooms; supports at most {support} mm\u00b3; stands "
-            "on {base} mm\u00b2, footprint {footprint} mm\u00b2",
+            "up: {up}\n{inside} mm\u00b2 of the overhang in closed rooms; supports at most "
+            "{support} mm\u00b3; stands on {base} mm\u00b2, footprint {footprint} mm\u00b2",
         )
         figures = {
             "inside": chosen.inside_mm2, "support": chosen.support_mm3,
             "base": chosen.base_mm2, "footprint": chosen.footprint_mm2,
         }  # fmt: skip
-        self._say(text.format(**{name: figure(value, 4) for name, value in figures.items()}))
+        told = {name: figure(value, 4) for name, value in figures.items()}
+        up = "; ".join(spoken(f"{part:.2f}") for part in chosen.up)
+        self._say(text.format(up=up, **told))
         self._clear()
         low, high = found.mesh.bounds
         middle, reach = (low + high) / 2.0, ARROW * float(np.linalg.norm(high - low))
@@ -243,7 +244,7 @@ class OrientPanel:
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._text.setStyleSheet(WRONG if wrong else "")
-        self._text.setText(text)
+        self._text.setText(localise(text))
 
 
 def open_orientations(obj: App.DocumentObject) -> None:

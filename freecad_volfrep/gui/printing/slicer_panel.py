@@ -26,6 +26,7 @@ from freecad_volfrep.gui.widgets.panel_manners import (
     leave_the_wheel,
     narrow,
 )
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, translate
 from volfrep.design.banded_infill import FEWEST_BANDS, MOST, MOST_BANDS
 from volfrep.design.banded_words import PATTERNS
@@ -90,6 +91,8 @@ class SlicerPanel:
         self._obj, self._doc, self._is_new = obj, obj.Document, is_new
         if not is_new:
             self._doc.openTransaction(translate("VOLFREP_SlicerInfill", "Slicer Infill"))
+        base = obj.Base
+        self._was_visible = base is not None and base.Visibility
         self._fields: dict[str, Any] = {}
         self.form = self._build()
         self._read()
@@ -130,7 +133,7 @@ class SlicerPanel:
         self._doc.abortTransaction()  # to end the editing would commit it
         self._close()
         if self._is_new and base is not None:
-            base.Visibility = True
+            base.Visibility = self._was_visible
         self._doc.recompute()
         return True
 
@@ -351,7 +354,7 @@ class SlicerPanel:
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._text.setStyleSheet(WRONG if wrong else "")
-        self._text.setText(text)
+        self._text.setText(localise(text))
 
 
 def _nearest_axis(vector: App.Vector) -> int:

@@ -5,8 +5,8 @@
 marks one, for a table that is translated when it is shown. Both names are what ``make
 translations`` looks for. What varies is put in afterwards: ``translate(...).format(name=...)``.
 
-What is stored in documents and files is never translated, nor are the sentences of the engine's
-errors, which a search for their words should find.
+What is stored in documents and files is never translated, nor what the report view says of the
+engine, which a search for its words should find; panels show it by way of `sentences.localise`.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ __all__ = [
     "grouped",
     "marked",
     "spaced",
+    "spoken",
     "translate",
 ]
 
@@ -42,15 +43,15 @@ def marked(context: str, *texts: str) -> tuple[str, ...]:
 
 def grouped(number: int) -> str:
     """A whole number as the user's language groups its digits."""
-    return _spoken(f"{number:,}")
+    return spoken(f"{number:,}")
 
 
 def figure(number: float, digits: int = 2) -> str:
     """A number of so many digits, written out, in the user's notation."""
-    return _spoken(f"{float(f'{number:.{digits}g}'):,.15g}")
+    return spoken(f"{float(f'{number:.{digits}g}'):,.15g}")
 
 
-def _spoken(text: str) -> str:
+def spoken(text: str) -> str:
     """An English number with the user's points and commas: FreeCAD's windows have those of Qt."""
     point, group = (translate("VolfrepNumbers", mark) for mark in (POINT, GROUP))
     return text.replace(",", "\0").replace(".", point).replace("\0", group)

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import translate
 from volfrep.util.errors import Cancelled, VolfrepError
 
@@ -42,7 +43,7 @@ def tell_error(sentence: str) -> None:
 def show_error(sentence: str) -> None:
     """Show one sentence in a box and wait until it is acknowledged."""
     App.Console.PrintError(f"VOLFREP: {sentence}\n")
-    QtWidgets.QMessageBox.warning(Gui.getMainWindow(), "VOLFREP", sentence)
+    QtWidgets.QMessageBox.warning(Gui.getMainWindow(), "VOLFREP", localise(sentence))
 
 
 def ask(sentence: str) -> bool:

@@ -33,6 +33,8 @@ def test_the_sources_were_read():
     assert len(TEXTS) > 300
 
 
+#: A part of a sentence that many have, in letters.
+SHORT = 6
 #: Functions that show their arguments to the user.
 SHOWING = {
     "tell", "tell_error", "show_error", "ask", "choose", "QLabel", "QPushButton", "QCheckBox",
@@ -81,6 +83,27 @@ def test_a_translation_has_the_same_places_ellipsis_and_lines(path):
         assert translation.strip() == translation, where
         if context != "App::Property":
             list(string.Formatter().parse(translation))  # raises where a brace is left open
+
+
+def test_sentences_that_are_found_again_are_still_written_so():
+    files = [*(ROOT / "core/volfrep").rglob("*.py"), *(ROOT / "freecad_volfrep").rglob("*.py")]
+    sources = "".join(
+        # Texts in several lines are one.
+        re.sub(r'" *\n *f?"', "", path.read_text(encoding="utf-8"))
+        for path in files
+        if path.name != "sentences.py"
+    )
+    sentences = [text for context, text in TEXTS if context == "VolfrepSentences"]
+    assert len(sentences) > 40
+    # What is put in may be written out in a sentence, so some part of it is looked for.
+    parts = {text: re.split(r"{\w+}|[:;,] ", text) for text in sentences}
+    lost = [
+        text
+        for text, some in parts.items()
+        if not any(part.strip() in sources for part in some if len(part) > SHORT)
+        and text not in sources
+    ]
+    assert lost == []
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)

@@ -13,16 +13,20 @@ import new_infill
 from driving import (
     answer_panel,
     check,
+    click,
     comes_true,
     lightness,
     panel,
+    panel_part,
     picture,
     preferences_open,
     run_checks,
     select,
     settle,
     slow,
+    told,
     turn_to,
+    type_value,
     wait_until,
     window,
 )
@@ -91,11 +95,33 @@ def speak(language, command, word, label, figure):
     check(f"{language}: values stay what they are", choice.currentData() == "Touching")
     check(f"{language}: nothing is cut off in it", cut_off(panel()) == [], cut_off(panel()))
     picture(f"language_{language}_1_panel")
+    refuse(language)
     choose_boundary(obj)
     leave(QtGui.QDialogButtonBox.Cancel)
     check(f"{language}: the panel closes", wait_until(lambda: panel() is None))
     other_panels(language)
     preferences(language)
+
+
+#: What begins a refusal of the engine, and what a mesh that is there is called.
+SENTENCES = {
+    "Italian": ("Nessuna asta di celle di 5 mm", "Aggiornato"),
+    "German": ("Keine Strebe von Zellen von 5 mm", "Aktuell"),
+    "English": ("No strut of cells of 5 mm", "Up to date"),
+}
+
+
+def refuse(language):
+    """What the engine refuses, and the state of a mesh, in the user's words."""
+    refused, made = SENTENCES[language]
+    type_value("ShellThickness", "15 mm")
+    told_so = wait_until(lambda: told().startswith(refused))
+    check(f"{language}: what is refused", told_so, told())
+    type_value("ShellThickness", "1 mm")
+    click(panel_part("Compute"))
+    check(f"{language}: the mesh", wait_until(lambda: told().startswith(made)), told())
+    figures = told().splitlines()[-1]
+    check(f"{language}: and its figures", " g, " in figures and figures[0].isdigit(), figures)
 
 
 def leave(answer):
@@ -147,6 +173,8 @@ def tables(language, word):
     wait_until(lambda: window("VolfrepReport") is not None)
     text = window("VolfrepReport").findChild(QtGui.QTextBrowser).toPlainText()
     check(f"{language}: the tables' names", word in text, text[:200])
+    check(f"{language}: and what is in them", "Aktuell" in text and "Up to date" not in text, text)
+    check(f"{language}: its numbers", "11.992" in text, text)
     picture(f"language_{language}_3_statistics")
     window("VolfrepReport").close()
     doc.removeObject(obj.Name)
@@ -218,6 +246,13 @@ def look_at_the_dark():
     Gui.runCommand("VOLFREP_CellLibrary", 0)
     wait_until(lambda: window("VolfrepCellLibrary") is not None)
     picture("dark_3_cells")
+    click(window("VolfrepCellLibrary").findChild(QtGui.QPushButton, "Find..."))
+    wait_until(lambda: window("VolfrepCellFinder") is not None)
+    picture("dark_4_finder")
+    light = lightness(
+        "dark_4_finder", window("VolfrepCellFinder").findChild(QtGui.QWidget, "CellChart")
+    )
+    check("dark: the chart of cells is dark", light < 0.4, light)
 
 
 def boxed():

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
+from freecad_volfrep.features.properties.quantities import mass_of
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, grouped, translate
 from volfrep.design.target import Target
 from volfrep.util.content import digest_of
@@ -145,6 +146,17 @@ class LivePreview:
             is_of(self._obj.Fingerprint, self._obj, spec, mesh),
             is_of(self._obj.SizedFor, self._obj, spec, mesh),
         )
+
+
+def made_text(obj: App.DocumentObject) -> str:
+    """The figures of an infill's mesh as a line for a user."""
+    return str(
+        translate("VolfrepFigures", "{mass} g, {triangles} triangles, made in {seconds} s").format(
+            mass=figure(mass_of(obj), 4),
+            triangles=grouped(obj.Triangles),
+            seconds=figure(max(0.1, obj.Seconds)),
+        )
+    )
 
 
 def stiffness_of(obj: App.DocumentObject, spec: LatticeSpec) -> float | None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.selection import selected_infill
 from freecad_volfrep.gui.undo import undo_step
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
@@ -111,7 +112,7 @@ class CellFinder(CellWindow):
             infill.RadiusDrivenBy = "Radius"
             infill.StrutRadius = one.strut_radius
             infill.Document.recompute()
-        self._say(f"{infill.Label}: {infill.Status}", wrong=not infill.isValid())
+        self._say(f"{infill.Label}: {localise(infill.Status)}", wrong=not infill.isValid())
 
     def _wanted(self) -> tuple[float | None, float | None]:
         """Density and modulus; None for any."""

@@ -12,6 +12,7 @@ from freecad_volfrep.gui.messages import file_name
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.selection import selected_infill, selected_with_edges
 from freecad_volfrep.gui.undo import undo_step
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import LIBRARY, load_cell
 from volfrep.design.parameters.table import CUSTOM_CELL
@@ -153,7 +154,7 @@ class CellLibrary(CellWindow):
             else:
                 infill.CellType = entry.cell.name
             infill.Document.recompute()
-        self._say(f"{infill.Label}: {infill.Status}", wrong=not infill.isValid())
+        self._say(f"{infill.Label}: {localise(infill.Status)}", wrong=not infill.isValid())
 
     def _picker(self) -> Any:
         picker = QtWidgets.QListWidget()

@@ -11,6 +11,7 @@ import FreeCADGui as Gui
 from freecad_volfrep.features.infill.materials import material_of
 from freecad_volfrep.features.jobs.progress import run_job
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import UnitCell
 from volfrep.design.parameters.table import BY_NAME, NOTHING
@@ -18,6 +19,8 @@ from volfrep.design.tpms import PeriodicSurface
 from volfrep.util.errors import Cancelled, VolfrepError
 
 _CONTEXT = "VolfrepCells"
+#: What stands before an error, which the engine writes in ASCII.
+PLUS_MINUS = "\u00b1"
 #: What the fields begin with, mm.
 _FIRST = {"CellSize": 10.0, "StrutRadius": 1.0, "WallThickness": 1.0}
 #: The figures follow once no value has changed for so long, ms.
@@ -110,7 +113,7 @@ class CellProperties(QtWidgets.QWidget):
             call = Call(lattice_properties, (cell, size), given, has_progress=False)
             found = run_job(title, call)
         except VolfrepError as error:
-            self._figures.setText(html.escape(str(error)))
+            self._figures.setText(html.escape(localise(str(error))))
         except Cancelled:
             return
         else:
@@ -169,7 +172,7 @@ class CellProperties(QtWidgets.QWidget):
     def _tell(self, rows: list[tuple[str, str]]) -> None:
         lines = "".join(
             f"<tr><td>{html.escape(translate('VolfrepReport', name))}&nbsp;&nbsp;</td>"
-            f"<td>{html.escape(text)}</td></tr>"
+            f"<td>{html.escape(localise(text).replace('+-', PLUS_MINUS))}</td></tr>"
             for name, text in rows
             if name not in ("cell", "material")
         )

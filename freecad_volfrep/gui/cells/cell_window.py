@@ -10,6 +10,7 @@ import FreeCADGui as Gui
 from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.selection import selected_infill
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import translate
 
 
@@ -75,7 +76,7 @@ class CellWindow(QtWidgets.QDialog):
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._note.setStyleSheet(WRONG if wrong else "")
-        self._note.setText(text)
+        self._note.setText(localise(text))
 
 
 def show_one(name: str, make: Any) -> Any:

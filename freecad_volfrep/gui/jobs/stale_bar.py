@@ -14,6 +14,7 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.features.reports.statistics import infills_of
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import translate
 
 from .updating import begin_update
@@ -94,7 +95,7 @@ class _Bar(QtWidgets.QFrame):
         else:
             text = translate("VolfrepFreshness", "{count} lattices are out of date")
         self._said.setText(text.format(label=infills[0].Label, count=len(infills)))
-        self.setToolTip("\n".join(f"{obj.Label}: {obj.Status}" for obj in infills))
+        self.setToolTip("\n".join(f"{obj.Label}: {localise(obj.Status)}" for obj in infills))
         self.adjustSize()
         self.move(PLACE, PLACE)
         self.raise_()

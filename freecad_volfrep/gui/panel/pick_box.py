@@ -28,6 +28,7 @@ from freecad_volfrep.gui.draw.arrow_handle import ArrowHandle
 from freecad_volfrep.gui.draw.prisms import prisms
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.widgets.panel_manners import narrow
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import translate
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.util.errors import VolfrepError
@@ -146,7 +147,7 @@ class PickBox(QtWidgets.QWidget):
             self._picture.show(name if self._pick.isChecked() else None)
         except VolfrepError as error:  # a face that is there no more
             self._picture.show(None)
-            self._said.setText(str(error))
+            self._said.setText(localise(str(error)))
 
     def _begin(self) -> None:
         """Show what was chosen to be picked."""

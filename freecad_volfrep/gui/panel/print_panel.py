@@ -13,6 +13,7 @@ from freecad_volfrep.features.reports.print_figures import Row, print_rows
 from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.qt import QtWidgets
 from freecad_volfrep.gui.widgets.panel_manners import fits_any_width
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
 
@@ -35,10 +36,10 @@ class PrintFigures(QtWidgets.QLabel):
             lines = [_line(row) for row in print_rows(obj, shown)]
             has_limits = process_of(obj) is not None
         except VolfrepError as error:
-            self.setText(html.escape(str(error)))
+            self.setText(html.escape(localise(str(error))))
             return
         if not has_limits:
-            hint = translate("VolfrepFigures", "Choose a Print process to see its limits.")
+            hint = translate("VolfrepFigures", "Choose a process to see its limits.")
             lines.append(f"<i>{html.escape(hint)}</i>")
         self.setText("<br>".join(lines))
 

@@ -34,6 +34,8 @@ MATERIAL = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Material")
 ENTRIES = marked("App::Property", "None", "Custom", "Of the solid")
 #: What a panel calls properties whose names, which documents keep, say it less well.
 LABELS = {
+    "PrintMaterial": MATERIAL,
+    "PrintProcess": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Process"),
     "ShellThickness": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Skin thickness"),
     "Activation": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells kept"),
     "TargetDensity": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Target relative density"),

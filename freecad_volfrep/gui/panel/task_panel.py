@@ -13,7 +13,13 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.features.infill.expressions import follow_expressions
 from freecad_volfrep.features.infill.factory import SHEET
-from freecad_volfrep.features.infill.live_preview import TARGETS, LivePreview, Shown, stiffness_of
+from freecad_volfrep.features.infill.live_preview import (
+    TARGETS,
+    LivePreview,
+    Shown,
+    made_text,
+    stiffness_of,
+)
 from freecad_volfrep.features.properties.quantities import is_driven, number_of, set_value
 from freecad_volfrep.gui.jobs.updating import Update, begin_update, show_mesh
 from freecad_volfrep.gui.messages import WRONG
@@ -38,6 +44,7 @@ from freecad_volfrep.gui.widgets.sections import (
     Section,
     give_accelerators,
 )
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import measure_of
 from volfrep.design.parameters.table import BY_NAME
@@ -180,7 +187,12 @@ class TaskPanel:
         if is_there is None:
             return
         self._update = None
-        self._say(self._obj.Status, wrong=not is_there)
+        self._say(
+            f"{localise(self._obj.Status)}\n{made_text(self._obj)}"
+            if is_there
+            else self._obj.Status,
+            wrong=not is_there,
+        )
         self._tell_radius(self._obj.StrutRadius.Value)
         self._obj.ViewObject.Visibility = is_there
         if is_there:
@@ -482,7 +494,7 @@ class TaskPanel:
 
     def _say(self, text: str, wrong: bool = False) -> None:
         """A sentence or figures; what is wrong stands below the field that changed last."""
-        is_told = False
+        is_told, text = False, localise(text)
         for _, rows, _ in self._boxes:
             is_told = rows.tell(self._last if wrong else "", text) or is_told
         self._figures.setStyleSheet(WRONG if wrong else "")

@@ -35,7 +35,8 @@ from freecad_volfrep.gui.widgets.panel_manners import (
 from freecad_volfrep.gui.widgets.printed_table import PrintedTableFields
 from freecad_volfrep.gui.windows.plot_window import show_plot
 from freecad_volfrep.gui.windows.report_window import show_report
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
+from freecad_volfrep.sentences import localise
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, spoken, translate
 from volfrep.util.errors import Cancelled, VolfrepError
 
 from .loads_box import LoadsBox
@@ -442,14 +443,14 @@ class SizePanel:
             self._table.setRowCount(0)
         for row in range(self._table.rowCount(), len(self._steps)):
             self._table.insertRow(row)
-            for column, text in enumerate(self._steps[row]):
+            for column, text in enumerate(_step_in_words(self._steps[row])):
                 self._table.setItem(row, column, QtWidgets.QTableWidgetItem(text))
         self._table.resizeColumnsToContents()
         self._table.scrollToBottom()
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._said.setStyleSheet(WRONG if wrong else "")
-        self._said.setText(text)
+        self._said.setText(localise(text))
         if wrong:
             # OK is far above: nobody would see it.
             QtCore.QTimer.singleShot(0, self._show_said)
@@ -464,6 +465,14 @@ class SizePanel:
         Gui.Control.closeDialog()
         if Gui.ActiveDocument is not None:
             Gui.ActiveDocument.resetEdit()
+
+
+def _step_in_words(step: tuple[str, ...]) -> tuple[str, ...]:
+    """A row of the table of steps in the user's language."""
+    *figures, used = step
+    limit, _, share = used.rpartition(" ")
+    most = f"{translate('VolfrepSizePanel', limit)} {share}" if limit else used
+    return (*map(spoken, figures), most)
 
 
 def _switch(name: str, is_on: bool, text: str, tip: str) -> Any:

@@ -11,6 +11,7 @@ from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
 from freecad_volfrep.features.reports.tables import Table, as_csv, as_html
 from freecad_volfrep.gui.messages import errors_shown, file_name, tell, tell_written
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep.sentences import localise_cell
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
 from volfrep.util.files import replacing
 
@@ -36,6 +37,7 @@ WORDS = marked(
     "mass, g", "triangles", "vertices", "bodies", "closed voids", "through-holes", "watertight",
     "struts removed, free end", "short stubs removed", "thin struts removed",
     "loose pieces removed", "all", "most",
+    "Part", "Lattice", "Domain",
     "shell", "voxels", "tile", "lattice", "trim", "check", "yes", "no", "none", "found",
     "closed", "manifold", "voids", "genus", "volume", "area", "box", "from", "smallest angle",
     "as a file holds it", "step of its numbers", "shortest edge", "mean radius ratio",
@@ -63,6 +65,11 @@ WORDS = marked(
 )  # fmt: skip
 
 
+def _said(text: str) -> str:
+    """A word, a figure or a sentence of a table in the user's language."""
+    return localise_cell(str(translate("VolfrepReport", text)))
+
+
 class ReportWindow(QtWidgets.QDialog):
     """Shows tables without keeping FreeCAD waiting.
 
@@ -79,7 +86,7 @@ class ReportWindow(QtWidgets.QDialog):
         self.resize(*SIZE)
         self._name, self._tables = name, tables
         self.text = QtWidgets.QTextBrowser()
-        self.text.setHtml(as_html(tables, lambda text: str(translate("VolfrepReport", text))))
+        self.text.setHtml(as_html(tables, _said))
         column = QtWidgets.QVBoxLayout(self)
         column.addWidget(self.text)
         line = QtWidgets.QHBoxLayout()

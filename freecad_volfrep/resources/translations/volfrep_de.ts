@@ -702,7 +702,7 @@
     </message>
     <message>
       <source>None</source>
-      <translation>Keine</translation>
+      <translation>Ohne</translation>
     </message>
     <message>
       <source>Numbers that the cell leaves to be chosen, such as 'arm = 0.15' of Re-entrant; 'volfrep cells' tells which</source>
@@ -2011,7 +2011,7 @@
     </message>
     <message>
       <source>None</source>
-      <translation>Keine</translation>
+      <translation>Ohne</translation>
     </message>
     <message>
       <source>Of struts as printed ({table}).</source>
@@ -2080,6 +2080,14 @@
   </context>
   <context>
     <name>VolfrepCommands</name>
+    <message>
+      <source>'{label}' is a closed surface and not a solid yet: convert it (Part &gt; Convert to solid).</source>
+      <translation>'{label}' ist eine geschlossene Fläche und noch kein Körper: umwandeln (Part &gt; In Festkörper umwandeln).</translation>
+    </message>
+    <message>
+      <source>'{label}' is an open surface, which encloses nothing: close it or give it a thickness, and convert it to a solid (Part &gt; Convert to solid).</source>
+      <translation>'{label}' ist eine offene Fläche, die nichts umschließt: schließen oder ihr eine Dicke geben, und in einen Körper umwandeln (Part &gt; In Festkörper umwandeln).</translation>
+    </message>
     <message>
       <source>A panel is open: end it first.</source>
       <translation>Ein Aufgabenfenster ist offen: erst dieses beenden.</translation>
@@ -2258,8 +2266,8 @@
   <context>
     <name>VolfrepFigures</name>
     <message>
-      <source>Choose a Print process to see its limits.</source>
-      <translation>Ein Druckverfahren wählen, um dessen Grenzen zu sehen.</translation>
+      <source>Choose a process to see its limits.</source>
+      <translation>Ein Verfahren wählen, um seine Grenzen zu sehen.</translation>
     </message>
     <message>
       <source>Told by Print Check, once computed.</source>
@@ -2328,6 +2336,10 @@
     <message>
       <source>varies: see Print Check</source>
       <translation>verschieden: siehe Druckprüfung</translation>
+    </message>
+    <message>
+      <source>{mass} g, {triangles} triangles, made in {seconds} s</source>
+      <translation>{mass} g, {triangles} Dreiecke, in {seconds} s gemacht</translation>
     </message>
     <message>
       <source>{number} active cells</source>
@@ -2816,16 +2828,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Überhang</translation>
     </message>
     <message>
-      <source>up</source>
-      <translation>oben</translation>
+      <source>up: {up}
+{inside} mm² of the overhang in closed rooms; supports at most {support} mm³; stands on {base} mm², footprint {footprint} mm²</source>
+      <translation>oben: {up}
+{inside} mm² des Überhangs in geschlossenen Räumen; Stützen höchstens {support} mm³; steht auf {base} mm², Grundfläche {footprint} mm²</translation>
     </message>
     <message>
       <source>{checks}: built along it.</source>
       <translation>{checks}: entlang ihr gebaut.</translation>
-    </message>
-    <message>
-      <source>{inside} mm² of it in closed rooms; supports at most {support} mm³; stands on {base} mm², footprint {footprint} mm²</source>
-      <translation>{inside} mm² davon in geschlossenen Räumen; Stützen höchstens {support} mm³; steht auf {base} mm², Grundfläche {footprint} mm²</translation>
     </message>
   </context>
   <context>
@@ -3195,6 +3205,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Kopieren</translation>
     </message>
     <message>
+      <source>Domain</source>
+      <translation>Füllraum</translation>
+    </message>
+    <message>
       <source>E along [100]</source>
       <translation>E-Modul längs [100]</translation>
     </message>
@@ -3227,8 +3241,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Eingaben</translation>
     </message>
     <message>
+      <source>Lattice</source>
+      <translation>Gitter</translation>
+    </message>
+    <message>
       <source>Notes</source>
       <translation>Anmerkungen</translation>
+    </message>
+    <message>
+      <source>Part</source>
+      <translation>Bauteil</translation>
     </message>
     <message>
       <source>Peak memory at the end of each stage, MB</source>
@@ -3703,6 +3725,229 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     </message>
   </context>
   <context>
+    <name>VolfrepSentences</name>
+    <message>
+      <source>'{element}' has no direction: pick a straight or a round edge, a plane or a round face, an axis or a plane.</source>
+      <translation>'{element}' hat keine Richtung: eine gerade oder runde Kante, eine ebene oder runde Fläche, eine Achse oder eine Ebene wählen.</translation>
+    </message>
+    <message>
+      <source>'{element}' has no middle: pick a vertex, edge or face.</source>
+      <translation>'{element}' hat keine Mitte: eine Ecke, Kante oder Fläche wählen.</translation>
+    </message>
+    <message>
+      <source>'{element}' is no face of the part: pick faces of it, or another solid.</source>
+      <translation>'{element}' ist keine Fläche des Teils: Flächen des Teils oder einen anderen Körper wählen.</translation>
+    </message>
+    <message>
+      <source>'{label}' is a {shape} without a solid: choose a solid, or close it and convert it to one (Part &gt; Convert to solid).</source>
+      <translation>'{label}' hat Flächen ({shape}), aber keinen Körper: einen Körper wählen, oder sie schließen und umwandeln (Part &gt; In Festkörper umwandeln).</translation>
+    </message>
+    <message>
+      <source>'{label}' refers to no face, edge or vertex: choose some of the part's.</source>
+      <translation>'{label}' bezieht sich auf keine Fläche, Kante oder Ecke: welche des Teils wählen.</translation>
+    </message>
+    <message>
+      <source>0: it carries nothing that way</source>
+      <translation>0: in dieser Richtung trägt die Zelle nichts</translation>
+    </message>
+    <message>
+      <source>A network along faces has none: pick one or two of the solid as NetworkFaces.</source>
+      <translation>Ein Netzwerk entlang Flächen hat keine: eine oder zwei des Körpers als NetworkFaces wählen.</translation>
+    </message>
+    <message>
+      <source>A stiffness that drives the radius is that of a material: choose one for the infill.</source>
+      <translation>Eine Steifigkeit, die den Radius bestimmt, ist die eines Werkstoffs: einen für die Füllung wählen.</translation>
+    </message>
+    <message>
+      <source>Cancelled: the bands are those of the last recompute, if there was one.</source>
+      <translation>Abgebrochen: die Bänder sind die der letzten Neuberechnung, wenn es eine gab.</translation>
+    </message>
+    <message>
+      <source>Cancelled: the mesh is that of the last finished update; use Update Lattice Infill to try again.</source>
+      <translation>Abgebrochen: das Netz ist das der letzten fertigen Aktualisierung; mit Gitterfüllung aktualisieren noch einmal versuchen.</translation>
+    </message>
+    <message>
+      <source>Cancelled: there is no mesh yet; use Update Lattice Infill to make it.</source>
+      <translation>Abgebrochen: es gibt noch kein Netz; mit Gitterfüllung aktualisieren wird es gemacht.</translation>
+    </message>
+    <message>
+      <source>Cancelled: what was done is kept, and the next start goes on from there.</source>
+      <translation>Abgebrochen: was fertig ist, bleibt, und der nächste Start fährt dort fort.</translation>
+    </message>
+    <message>
+      <source>Cells of {size} mm are larger than the part, which measures {x} x {y} x {z} mm: reduce the cell size, or see whether the part is in another unit.</source>
+      <translation>Zellen von {size} mm sind größer als das Teil, das {x} x {y} x {z} mm misst: die Zellgröße verringern, oder nachsehen, ob das Teil in einer anderen Einheit ist.</translation>
+    </message>
+    <message>
+      <source>Cells of {size} mm are too large for struts of radius {radius} mm: make the cells {largest} mm or smaller, or the struts {thinnest} mm or thicker.</source>
+      <translation>Zellen von {size} mm sind zu groß für Streben vom Radius {radius} mm: die Zellen {largest} mm oder kleiner machen, oder die Streben {thinnest} mm oder dicker.</translation>
+    </message>
+    <message>
+      <source>Every strut has a free end or is too thin, so that none is left: keep dangling and thin struts, reduce the cell size or choose the activation 'touching'.</source>
+      <translation>Jede Strebe hat ein freies Ende oder ist zu dünn, so dass keine bleibt: lose und dünne Streben behalten, die Zellgröße verringern oder alle berührenden Zellen behalten.</translation>
+    </message>
+    <message>
+      <source>Failed: see the report view</source>
+      <translation>Fehlgeschlagen: siehe die Berichtsansicht</translation>
+    </message>
+    <message>
+      <source>Least mass needs a limit: of stress, displacement, buckling, frequency.</source>
+      <translation>Die kleinste Masse braucht eine Grenze: für Spannung, Verschiebung, Knicken, Frequenz.</translation>
+    </message>
+    <message>
+      <source>Neither the infill nor its load cases have a material: choose one for the infill.</source>
+      <translation>Weder die Füllung noch ihre Lastfälle haben einen Werkstoff: einen für die Füllung wählen.</translation>
+    </message>
+    <message>
+      <source>No cell of {size} mm has its centre inside the domain: reduce the cell size or choose the activation 'touching'.</source>
+      <translation>Keine Zelle von {size} mm hat ihre Mitte im Inneren: die Zellgröße verringern oder alle berührenden Zellen behalten.</translation>
+    </message>
+    <message>
+      <source>No cell of {size} mm lies wholly inside the domain: reduce the cell size or choose the activation 'touching'.</source>
+      <translation>Keine Zelle von {size} mm liegt ganz im Inneren: die Zellgröße verringern oder alle berührenden Zellen behalten.</translation>
+    </message>
+    <message>
+      <source>No load case is chosen: tick at least one.</source>
+      <translation>Kein Lastfall ist gewählt: mindestens einen ankreuzen.</translation>
+    </message>
+    <message>
+      <source>No strut of cells of {size} mm lies inside the skin: reduce the cell size or the skin thickness.</source>
+      <translation>Keine Strebe von Zellen von {size} mm liegt innerhalb der Haut: die Zellgröße oder die Hautdicke verringern.</translation>
+    </message>
+    <message>
+      <source>No strut of the network lies inside the skin: reduce the skin thickness.</source>
+      <translation>Keine Strebe des Netzwerks liegt innerhalb der Haut: die Hautdicke verringern.</translation>
+    </message>
+    <message>
+      <source>No strut radius gives a mass of {value} with {cells}: choose one from {least} to {most}, of which the skin is {skin}.</source>
+      <translation>Kein Strebenradius ergibt eine Masse von {value} mit {cells}: eine von {least} bis {most} wählen, davon ist die Haut {skin}.</translation>
+    </message>
+    <message>
+      <source>No strut radius gives a mass of {value} with {cells}: choose one from {least} to {most}.</source>
+      <translation>Kein Strebenradius ergibt eine Masse von {value} mit {cells}: eine von {least} bis {most} wählen.</translation>
+    </message>
+    <message>
+      <source>No strut radius gives a relative density of {value} with {cells}: choose one from {least} to {most}.</source>
+      <translation>Kein Strebenradius ergibt eine relative Dichte von {value} mit {cells}: eine von {least} bis {most} wählen.</translation>
+    </message>
+    <message>
+      <source>No wall lies inside the skin: reduce the skin thickness.</source>
+      <translation>Keine Wand liegt innerhalb der Haut: die Hautdicke verringern.</translation>
+    </message>
+    <message>
+      <source>Not run yet</source>
+      <translation>Noch nicht gelaufen</translation>
+    </message>
+    <message>
+      <source>Open faces, drain holes, faces with a skin of their own, and what is kept solid, need a skin that they belong to: give a skin thickness above 0.</source>
+      <translation>Offene Flächen, Entleerungslöcher, Flächen mit eigener Haut und was massiv bleibt, brauchen eine Haut, zu der sie gehören: eine Hautdicke über 0 angeben.</translation>
+    </message>
+    <message>
+      <source>Out of date: AutoUpdate is off, use Update Lattice Infill</source>
+      <translation>Veraltet: AutoUpdate ist aus, Gitterfüllung aktualisieren verwenden</translation>
+    </message>
+    <message>
+      <source>Out of date: a large job, use Update Lattice Infill</source>
+      <translation>Veraltet: eine große Berechnung, Gitterfüllung aktualisieren verwenden</translation>
+    </message>
+    <message>
+      <source>Out of date: the mesh of these values is not there yet</source>
+      <translation>Veraltet: das Netz dieser Werte ist noch nicht da</translation>
+    </message>
+    <message>
+      <source>Out of date: values have changed since this mesh was asked for; recompute</source>
+      <translation>Veraltet: Werte wurden geändert, seit dieses Netz verlangt wurde; neu berechnen</translation>
+    </message>
+    <message>
+      <source>Out of date: values have changed since this mesh was made; recompute</source>
+      <translation>Veraltet: Werte wurden geändert, seit dieses Netz gemacht wurde; neu berechnen</translation>
+    </message>
+    <message>
+      <source>Saved by a FreeCAD without VOLFREP: recompute, and whatever was changed there is followed</source>
+      <translation>Von einem FreeCAD ohne VOLFREP gespeichert: neu berechnen, dann wird übernommen, was dort geändert wurde</translation>
+    </message>
+    <message>
+      <source>Struts of radius {radius} mm are too thick for a cell of {size} mm: keep the radius below {limit} mm or enlarge the cell.</source>
+      <translation>Streben vom Radius {radius} mm sind zu dick für eine Zelle von {size} mm: den Radius unter {limit} mm halten oder die Zelle vergrößern.</translation>
+    </message>
+    <message>
+      <source>Struts of {diameter} mm are thinner than {process} prints: at least {least} mm.</source>
+      <translation>Streben von {diameter} mm sind dünner, als {process} druckt: mindestens {least} mm.</translation>
+    </message>
+    <message>
+      <source>The cell type Custom needs a cell: choose its .json file as CellFile.</source>
+      <translation>Der Zelltyp Custom braucht eine Zelle: ihre .json-Datei als CellFile wählen.</translation>
+    </message>
+    <message>
+      <source>The expression '{expression}' of {name} has no value ({reason}): correct it.</source>
+      <translation>Der Ausdruck '{expression}' von {name} hat keinen Wert ({reason}): berichtigen.</translation>
+    </message>
+    <message>
+      <source>The infill of this study has gone: choose another one as Infill.</source>
+      <translation>Die Füllung dieser Studie gibt es nicht mehr: eine andere als Infill wählen.</translation>
+    </message>
+    <message>
+      <source>The material Custom needs a file: choose its .toml or .json file as MaterialFile.</source>
+      <translation>Der Werkstoff Custom braucht eine Datei: seine .toml- oder .json-Datei als MaterialFile wählen.</translation>
+    </message>
+    <message>
+      <source>The part is nowhere thicker than two walls of {shell} mm, so that nothing is left to fill: reduce the skin thickness.</source>
+      <translation>Das Teil ist nirgends dicker als zwei Wände von {shell} mm, so dass nichts zu füllen bleibt: die Hautdicke verringern.</translation>
+    </message>
+    <message>
+      <source>The skin and what is kept solid leave nothing to fill: reduce the shell thickness, that of faces with their own, or what is kept solid.</source>
+      <translation>Die Haut und was massiv bleibt, lassen nichts zu füllen: die Hautdicke verringern, die von Flächen mit eigener, oder was massiv bleibt.</translation>
+    </message>
+    <message>
+      <source>There is no solid to fill: choose one as Base.</source>
+      <translation>Es gibt keinen Körper zu füllen: einen als Base wählen.</translation>
+    </message>
+    <message>
+      <source>Up to date</source>
+      <translation>Aktuell</translation>
+    </message>
+    <message>
+      <source>Walls of {thickness} mm are too thick for a cell of {size} mm: reduce the thickness or enlarge the cell.</source>
+      <translation>Wände von {thickness} mm sind zu dick für eine Zelle von {size} mm: die Dicke verringern oder die Zelle vergrößern.</translation>
+    </message>
+    <message>
+      <source>cells '{cell}' of {size} mm</source>
+      <translation>Zellen '{cell}' von {size} mm</translation>
+    </message>
+    <message>
+      <source>{count} cells are too many to be shown as lines: enlarge the cells.</source>
+      <translation>{count} Zellen sind zu viele, um als Linien gezeigt zu werden: die Zellen vergrößern.</translation>
+    </message>
+    <message>
+      <source>{designs} designs of {infill}</source>
+      <translation>{designs} Entwürfe von {infill}</translation>
+    </message>
+    <message>
+      <source>{figure} E of the solid</source>
+      <translation>{figure} des E-Moduls des Werkstoffs</translation>
+    </message>
+    <message>
+      <source>{figure} of the solid's</source>
+      <translation>{figure} von der des Werkstoffs</translation>
+    </message>
+    <message>
+      <source>{figure} of the solid's yield stress</source>
+      <translation>{figure} der Streckgrenze des Werkstoffs</translation>
+    </message>
+    <message>
+      <source>{material} is printed by {processes}, not by {process}.</source>
+      <translation>{material} wird mit {processes} gedruckt, nicht mit {process}.</translation>
+    </message>
+    <message>
+      <source>{name} has no values: write them as 6, 8, 10 or as 6 to 10 in 5.</source>
+      <translation>{name} hat keine Werte: als 6, 8, 10 oder als 6 to 10 in 5 schreiben.</translation>
+    </message>
+    <message>
+      <source>{solid} has no material in FreeCAD: give it one, or choose another for the infill.</source>
+      <translation>{solid} hat in FreeCAD keinen Werkstoff: ihm einen geben, oder einen anderen für die Füllung wählen.</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepSizePanel</name>
     <message>
       <source>A .csv file with the columns inclination, nominal, measured, as Coupons makes</source>
@@ -4090,6 +4335,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Jeden Entwurf vernetzen und messen</translation>
     </message>
     <message>
+      <source>Not run yet: choose what varies, then press Start.</source>
+      <translation>Noch nicht gelaufen: wählen, was variiert, dann Start drücken.</translation>
+    </message>
+    <message>
       <source>Open report</source>
       <translation>Bericht öffnen</translation>
     </message>
@@ -4347,6 +4596,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Preview</source>
       <translation>Vorschau</translation>
+    </message>
+    <message>
+      <source>Process</source>
+      <translation>Verfahren</translation>
     </message>
     <message>
       <source>Section</source>

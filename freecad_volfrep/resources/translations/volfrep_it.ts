@@ -2081,6 +2081,14 @@
   <context>
     <name>VolfrepCommands</name>
     <message>
+      <source>'{label}' is a closed surface and not a solid yet: convert it (Part &gt; Convert to solid).</source>
+      <translation>'{label}' è una superficie chiusa e non ancora un solido: convertirla (Part &gt; Converti in solido).</translation>
+    </message>
+    <message>
+      <source>'{label}' is an open surface, which encloses nothing: close it or give it a thickness, and convert it to a solid (Part &gt; Convert to solid).</source>
+      <translation>'{label}' è una superficie aperta, che non racchiude nulla: chiuderla o darle uno spessore, e convertirla in un solido (Part &gt; Converti in solido).</translation>
+    </message>
+    <message>
       <source>A panel is open: end it first.</source>
       <translation>È aperto un pannello: chiuderlo prima.</translation>
     </message>
@@ -2258,8 +2266,8 @@
   <context>
     <name>VolfrepFigures</name>
     <message>
-      <source>Choose a Print process to see its limits.</source>
-      <translation>Scegliere un processo di stampa per vederne i limiti.</translation>
+      <source>Choose a process to see its limits.</source>
+      <translation>Scegliere un processo per vederne i limiti.</translation>
     </message>
     <message>
       <source>Told by Print Check, once computed.</source>
@@ -2328,6 +2336,10 @@
     <message>
       <source>varies: see Print Check</source>
       <translation>varia: vedere il controllo di stampa</translation>
+    </message>
+    <message>
+      <source>{mass} g, {triangles} triangles, made in {seconds} s</source>
+      <translation>{mass} g, {triangles} triangoli, creata in {seconds} s</translation>
     </message>
     <message>
       <source>{number} active cells</source>
@@ -2816,16 +2828,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>sporgenza</translation>
     </message>
     <message>
-      <source>up</source>
-      <translation>alto</translation>
+      <source>up: {up}
+{inside} mm² of the overhang in closed rooms; supports at most {support} mm³; stands on {base} mm², footprint {footprint} mm²</source>
+      <translation>su: {up}
+{inside} mm² dello sbalzo in vani chiusi; supporti al massimo {support} mm³; poggia su {base} mm², impronta {footprint} mm²</translation>
     </message>
     <message>
       <source>{checks}: built along it.</source>
       <translation>{checks}: costruito lungo di essa.</translation>
-    </message>
-    <message>
-      <source>{inside} mm² of it in closed rooms; supports at most {support} mm³; stands on {base} mm², footprint {footprint} mm²</source>
-      <translation>{inside} mm² in vani chiusi; supporti al massimo {support} mm³; poggia su {base} mm², impronta {footprint} mm²</translation>
     </message>
   </context>
   <context>
@@ -3195,6 +3205,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Copia</translation>
     </message>
     <message>
+      <source>Domain</source>
+      <translation>Dominio</translation>
+    </message>
+    <message>
       <source>E along [100]</source>
       <translation>E lungo [100]</translation>
     </message>
@@ -3227,8 +3241,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Dati</translation>
     </message>
     <message>
+      <source>Lattice</source>
+      <translation>Reticolo</translation>
+    </message>
+    <message>
       <source>Notes</source>
       <translation>Note</translation>
+    </message>
+    <message>
+      <source>Part</source>
+      <translation>Parte</translation>
     </message>
     <message>
       <source>Peak memory at the end of each stage, MB</source>
@@ -3703,6 +3725,229 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     </message>
   </context>
   <context>
+    <name>VolfrepSentences</name>
+    <message>
+      <source>'{element}' has no direction: pick a straight or a round edge, a plane or a round face, an axis or a plane.</source>
+      <translation>'{element}' non ha una direzione: scegliere uno spigolo dritto o circolare, una faccia piana o circolare, un asse o un piano.</translation>
+    </message>
+    <message>
+      <source>'{element}' has no middle: pick a vertex, edge or face.</source>
+      <translation>'{element}' non ha un centro: scegliere un vertice, uno spigolo o una faccia.</translation>
+    </message>
+    <message>
+      <source>'{element}' is no face of the part: pick faces of it, or another solid.</source>
+      <translation>'{element}' non è una faccia del pezzo: scegliere facce del pezzo o un altro solido.</translation>
+    </message>
+    <message>
+      <source>'{label}' is a {shape} without a solid: choose a solid, or close it and convert it to one (Part &gt; Convert to solid).</source>
+      <translation>'{label}' ha facce ({shape}) ma nessun solido: scegliere un solido, oppure chiuderle e convertirle (Part &gt; Converti in solido).</translation>
+    </message>
+    <message>
+      <source>'{label}' refers to no face, edge or vertex: choose some of the part's.</source>
+      <translation>'{label}' non si riferisce a facce, spigoli o vertici: sceglierne del pezzo.</translation>
+    </message>
+    <message>
+      <source>0: it carries nothing that way</source>
+      <translation>0: in quella direzione non porta nulla</translation>
+    </message>
+    <message>
+      <source>A network along faces has none: pick one or two of the solid as NetworkFaces.</source>
+      <translation>Una rete lungo facce non ne ha: scegliere una o due facce del solido come NetworkFaces.</translation>
+    </message>
+    <message>
+      <source>A stiffness that drives the radius is that of a material: choose one for the infill.</source>
+      <translation>Una rigidezza che determina il raggio è quella di un materiale: sceglierne uno per il riempimento.</translation>
+    </message>
+    <message>
+      <source>Cancelled: the bands are those of the last recompute, if there was one.</source>
+      <translation>Annullato: le fasce sono quelle dell'ultimo ricalcolo, se c'è stato.</translation>
+    </message>
+    <message>
+      <source>Cancelled: the mesh is that of the last finished update; use Update Lattice Infill to try again.</source>
+      <translation>Annullato: la mesh è quella dell'ultimo aggiornamento completato; usare Aggiorna riempimento reticolare per riprovare.</translation>
+    </message>
+    <message>
+      <source>Cancelled: there is no mesh yet; use Update Lattice Infill to make it.</source>
+      <translation>Annullato: non c'è ancora una mesh; usare Aggiorna riempimento reticolare per crearla.</translation>
+    </message>
+    <message>
+      <source>Cancelled: what was done is kept, and the next start goes on from there.</source>
+      <translation>Annullato: ciò che è stato fatto rimane, e il prossimo avvio prosegue da lì.</translation>
+    </message>
+    <message>
+      <source>Cells of {size} mm are larger than the part, which measures {x} x {y} x {z} mm: reduce the cell size, or see whether the part is in another unit.</source>
+      <translation>Le celle di {size} mm sono più grandi del pezzo, che misura {x} x {y} x {z} mm: ridurre la dimensione delle celle, o controllare se il pezzo è in un'altra unità.</translation>
+    </message>
+    <message>
+      <source>Cells of {size} mm are too large for struts of radius {radius} mm: make the cells {largest} mm or smaller, or the struts {thinnest} mm or thicker.</source>
+      <translation>Le celle di {size} mm sono troppo grandi per aste di raggio {radius} mm: fare le celle di {largest} mm o meno, o le aste di {thinnest} mm o più.</translation>
+    </message>
+    <message>
+      <source>Every strut has a free end or is too thin, so that none is left: keep dangling and thin struts, reduce the cell size or choose the activation 'touching'.</source>
+      <translation>Ogni asta ha un'estremità libera o è troppo sottile, e non ne resta nessuna: tenere le aste libere e sottili, ridurre la dimensione delle celle o tenere tutte le celle che toccano il pezzo.</translation>
+    </message>
+    <message>
+      <source>Failed: see the report view</source>
+      <translation>Non riuscito: vedere il report</translation>
+    </message>
+    <message>
+      <source>Least mass needs a limit: of stress, displacement, buckling, frequency.</source>
+      <translation>La massa minima richiede un limite: di tensione, spostamento, instabilità, frequenza.</translation>
+    </message>
+    <message>
+      <source>Neither the infill nor its load cases have a material: choose one for the infill.</source>
+      <translation>Né il riempimento né i suoi casi di carico hanno un materiale: sceglierne uno per il riempimento.</translation>
+    </message>
+    <message>
+      <source>No cell of {size} mm has its centre inside the domain: reduce the cell size or choose the activation 'touching'.</source>
+      <translation>Nessuna cella di {size} mm ha il centro all'interno: ridurre la dimensione delle celle o tenere tutte le celle che toccano il pezzo.</translation>
+    </message>
+    <message>
+      <source>No cell of {size} mm lies wholly inside the domain: reduce the cell size or choose the activation 'touching'.</source>
+      <translation>Nessuna cella di {size} mm sta tutta all'interno: ridurre la dimensione delle celle o tenere tutte le celle che toccano il pezzo.</translation>
+    </message>
+    <message>
+      <source>No load case is chosen: tick at least one.</source>
+      <translation>Nessun caso di carico è scelto: spuntarne almeno uno.</translation>
+    </message>
+    <message>
+      <source>No strut of cells of {size} mm lies inside the skin: reduce the cell size or the skin thickness.</source>
+      <translation>Nessuna asta di celle di {size} mm sta dentro il guscio: ridurre la dimensione delle celle o lo spessore del guscio.</translation>
+    </message>
+    <message>
+      <source>No strut of the network lies inside the skin: reduce the skin thickness.</source>
+      <translation>Nessuna asta della rete sta dentro il guscio: ridurre lo spessore del guscio.</translation>
+    </message>
+    <message>
+      <source>No strut radius gives a mass of {value} with {cells}: choose one from {least} to {most}, of which the skin is {skin}.</source>
+      <translation>Nessun raggio delle aste dà una massa di {value} con {cells}: sceglierne una da {least} a {most}, di cui il guscio è {skin}.</translation>
+    </message>
+    <message>
+      <source>No strut radius gives a mass of {value} with {cells}: choose one from {least} to {most}.</source>
+      <translation>Nessun raggio delle aste dà una massa di {value} con {cells}: sceglierne una da {least} a {most}.</translation>
+    </message>
+    <message>
+      <source>No strut radius gives a relative density of {value} with {cells}: choose one from {least} to {most}.</source>
+      <translation>Nessun raggio delle aste dà una densità relativa di {value} con {cells}: sceglierne una da {least} a {most}.</translation>
+    </message>
+    <message>
+      <source>No wall lies inside the skin: reduce the skin thickness.</source>
+      <translation>Nessuna parete sta dentro il guscio: ridurre lo spessore del guscio.</translation>
+    </message>
+    <message>
+      <source>Not run yet</source>
+      <translation>Non ancora eseguito</translation>
+    </message>
+    <message>
+      <source>Open faces, drain holes, faces with a skin of their own, and what is kept solid, need a skin that they belong to: give a skin thickness above 0.</source>
+      <translation>Facce aperte, fori di scarico, facce con un guscio proprio e ciò che resta pieno richiedono un guscio a cui appartenere: dare uno spessore del guscio maggiore di 0.</translation>
+    </message>
+    <message>
+      <source>Out of date: AutoUpdate is off, use Update Lattice Infill</source>
+      <translation>Non aggiornato: AutoUpdate è disattivato, usare Aggiorna riempimento reticolare</translation>
+    </message>
+    <message>
+      <source>Out of date: a large job, use Update Lattice Infill</source>
+      <translation>Non aggiornato: un calcolo grande, usare Aggiorna riempimento reticolare</translation>
+    </message>
+    <message>
+      <source>Out of date: the mesh of these values is not there yet</source>
+      <translation>Non aggiornato: la mesh di questi valori non c'è ancora</translation>
+    </message>
+    <message>
+      <source>Out of date: values have changed since this mesh was asked for; recompute</source>
+      <translation>Non aggiornato: i valori sono cambiati da quando questa mesh è stata chiesta; ricalcolare</translation>
+    </message>
+    <message>
+      <source>Out of date: values have changed since this mesh was made; recompute</source>
+      <translation>Non aggiornato: i valori sono cambiati da quando questa mesh è stata creata; ricalcolare</translation>
+    </message>
+    <message>
+      <source>Saved by a FreeCAD without VOLFREP: recompute, and whatever was changed there is followed</source>
+      <translation>Salvato da un FreeCAD senza VOLFREP: ricalcolare, e ciò che vi è stato cambiato viene seguito</translation>
+    </message>
+    <message>
+      <source>Struts of radius {radius} mm are too thick for a cell of {size} mm: keep the radius below {limit} mm or enlarge the cell.</source>
+      <translation>Aste di raggio {radius} mm sono troppo spesse per una cella di {size} mm: tenere il raggio sotto {limit} mm o ingrandire la cella.</translation>
+    </message>
+    <message>
+      <source>Struts of {diameter} mm are thinner than {process} prints: at least {least} mm.</source>
+      <translation>Aste di {diameter} mm sono più sottili di quanto {process} stampi: almeno {least} mm.</translation>
+    </message>
+    <message>
+      <source>The cell type Custom needs a cell: choose its .json file as CellFile.</source>
+      <translation>Il tipo di cella Custom richiede una cella: scegliere il suo file .json come CellFile.</translation>
+    </message>
+    <message>
+      <source>The expression '{expression}' of {name} has no value ({reason}): correct it.</source>
+      <translation>L'espressione '{expression}' di {name} non ha un valore ({reason}): correggerla.</translation>
+    </message>
+    <message>
+      <source>The infill of this study has gone: choose another one as Infill.</source>
+      <translation>Il riempimento di questo studio non c'è più: sceglierne un altro come Infill.</translation>
+    </message>
+    <message>
+      <source>The material Custom needs a file: choose its .toml or .json file as MaterialFile.</source>
+      <translation>Il materiale Custom richiede un file: scegliere il suo file .toml o .json come MaterialFile.</translation>
+    </message>
+    <message>
+      <source>The part is nowhere thicker than two walls of {shell} mm, so that nothing is left to fill: reduce the skin thickness.</source>
+      <translation>Il pezzo non è da nessuna parte più spesso di due pareti di {shell} mm, e non resta nulla da riempire: ridurre lo spessore del guscio.</translation>
+    </message>
+    <message>
+      <source>The skin and what is kept solid leave nothing to fill: reduce the shell thickness, that of faces with their own, or what is kept solid.</source>
+      <translation>Il guscio e ciò che resta pieno non lasciano nulla da riempire: ridurre lo spessore del guscio, quello delle facce con uno proprio, o ciò che resta pieno.</translation>
+    </message>
+    <message>
+      <source>There is no solid to fill: choose one as Base.</source>
+      <translation>Non c'è un solido da riempire: sceglierne uno come Base.</translation>
+    </message>
+    <message>
+      <source>Up to date</source>
+      <translation>Aggiornato</translation>
+    </message>
+    <message>
+      <source>Walls of {thickness} mm are too thick for a cell of {size} mm: reduce the thickness or enlarge the cell.</source>
+      <translation>Pareti di {thickness} mm sono troppo spesse per una cella di {size} mm: ridurre lo spessore o ingrandire la cella.</translation>
+    </message>
+    <message>
+      <source>cells '{cell}' of {size} mm</source>
+      <translation>celle '{cell}' di {size} mm</translation>
+    </message>
+    <message>
+      <source>{count} cells are too many to be shown as lines: enlarge the cells.</source>
+      <translation>{count} celle sono troppe per essere mostrate come linee: ingrandire le celle.</translation>
+    </message>
+    <message>
+      <source>{designs} designs of {infill}</source>
+      <translation>{designs} progetti di {infill}</translation>
+    </message>
+    <message>
+      <source>{figure} E of the solid</source>
+      <translation>{figure} di E del materiale pieno</translation>
+    </message>
+    <message>
+      <source>{figure} of the solid's</source>
+      <translation>{figure} di quella del materiale pieno</translation>
+    </message>
+    <message>
+      <source>{figure} of the solid's yield stress</source>
+      <translation>{figure} dello snervamento del materiale pieno</translation>
+    </message>
+    <message>
+      <source>{material} is printed by {processes}, not by {process}.</source>
+      <translation>{material} si stampa con {processes}, non con {process}.</translation>
+    </message>
+    <message>
+      <source>{name} has no values: write them as 6, 8, 10 or as 6 to 10 in 5.</source>
+      <translation>{name} non ha valori: scriverli come 6, 8, 10 o come 6 to 10 in 5.</translation>
+    </message>
+    <message>
+      <source>{solid} has no material in FreeCAD: give it one, or choose another for the infill.</source>
+      <translation>{solid} non ha un materiale in FreeCAD: dargliene uno, o sceglierne un altro per il riempimento.</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepSizePanel</name>
     <message>
       <source>A .csv file with the columns inclination, nominal, measured, as Coupons makes</source>
@@ -4090,6 +4335,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Generare e misurare ogni progetto</translation>
     </message>
     <message>
+      <source>Not run yet: choose what varies, then press Start.</source>
+      <translation>Non ancora eseguito: scegliere che cosa varia, poi premere Avvia.</translation>
+    </message>
+    <message>
       <source>Open report</source>
       <translation>Aprire il rapporto</translation>
     </message>
@@ -4347,6 +4596,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Preview</source>
       <translation>Anteprima</translation>
+    </message>
+    <message>
+      <source>Process</source>
+      <translation>Processo</translation>
     </message>
     <message>
       <source>Section</source>

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the engine and documents say, in the user's language: the sentences met most often.
+
+The engine and what is stored know English only. A panel shows what they say through `localise`: it
+finds the pattern that a sentence was made of, and puts the figures into the pattern's translation.
+A sentence that is not listed stays English, and so does the report view, which can be searched for.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+from freecad_volfrep.translation import marked, spoken, translate
+
+_CONTEXT = "VolfrepSentences"
+
+#: As they are written where they are made; tests/core/test_sentences.py looks for each there.
+SENTENCES = marked(
+    "VolfrepSentences",
+    # Status of infills, bands and studies.
+    "Up to date",
+    "Out of date: AutoUpdate is off, use Update Lattice Infill",
+    "Out of date: a large job, use Update Lattice Infill",
+    "Out of date: the mesh of these values is not there yet",
+    "Out of date: values have changed since this mesh was asked for; recompute",
+    "Out of date: values have changed since this mesh was made; recompute",
+    "Failed: see the report view",
+    "Cancelled: the mesh is that of the last finished update; use Update Lattice Infill to try "
+    "again.",
+    "Cancelled: there is no mesh yet; use Update Lattice Infill to make it.",
+    "Cancelled: the bands are those of the last recompute, if there was one.",
+    "Cancelled: what was done is kept, and the next start goes on from there.",
+    "Saved by a FreeCAD without VOLFREP: recompute, and whatever was changed there is followed",
+    "Not run yet",
+    "{designs} designs of {infill}",
+    # Advice, and what keeps a preview from being shown.
+    "{material} is printed by {processes}, not by {process}.",
+    "Struts of {diameter} mm are thinner than {process} prints: at least {least} mm.",
+    "There is no solid to fill: choose one as Base.",
+    "The part is nowhere thicker than two walls of {shell} mm, so that nothing is left to fill: "
+    "reduce the skin thickness.",
+    "The skin and what is kept solid leave nothing to fill: reduce the shell thickness, that of "
+    "faces with their own, or what is kept solid.",
+    "No strut of cells of {size} mm lies inside the skin: reduce the cell size or the skin "
+    "thickness.",
+    "No strut of the network lies inside the skin: reduce the skin thickness.",
+    "No wall lies inside the skin: reduce the skin thickness.",
+    "No cell of {size} mm lies wholly inside the domain: reduce the cell size or choose the "
+    "activation 'touching'.",
+    "No cell of {size} mm has its centre inside the domain: reduce the cell size or choose the "
+    "activation 'touching'.",
+    "Cells of {size} mm are larger than the part, which measures {x} x {y} x {z} mm: reduce the "
+    "cell size, or see whether the part is in another unit.",
+    "Every strut has a free end or is too thin, so that none is left: keep dangling and thin "
+    "struts, reduce the cell size or choose the activation 'touching'.",
+    "Struts of radius {radius} mm are too thick for a cell of {size} mm: keep the radius below "
+    "{limit} mm or enlarge the cell.",
+    "Walls of {thickness} mm are too thick for a cell of {size} mm: reduce the thickness or "
+    "enlarge the cell.",
+    "Cells of {size} mm are too large for struts of radius {radius} mm: make the cells {largest} "
+    "mm or smaller, or the struts {thinnest} mm or thicker.",
+    "No strut radius gives a mass of {value} with {cells}: choose one from {least} to {most}, of "
+    "which the skin is {skin}.",
+    "No strut radius gives a mass of {value} with {cells}: choose one from {least} to {most}.",
+    "No strut radius gives a relative density of {value} with {cells}: choose one from {least} to "
+    "{most}.",
+    "{count} cells are too many to be shown as lines: enlarge the cells.",
+    "A stiffness that drives the radius is that of a material: choose one for the infill.",
+    "The cell type Custom needs a cell: choose its .json file as CellFile.",
+    "The material Custom needs a file: choose its .toml or .json file as MaterialFile.",
+    "{solid} has no material in FreeCAD: give it one, or choose another for the infill.",
+    "Open faces, drain holes, faces with a skin of their own, and what is kept solid, need a skin "
+    "that they belong to: give a skin thickness above 0.",
+    "A network along faces has none: pick one or two of the solid as NetworkFaces.",
+    "'{label}' is a {shape} without a solid: choose a solid, or close it and convert it to one "
+    "(Part > Convert to solid).",
+    "'{element}' is no face of the part: pick faces of it, or another solid.",
+    "'{element}' has no direction: pick a straight or a round edge, a plane or a round face, an "
+    "axis or a plane.",
+    "'{element}' has no middle: pick a vertex, edge or face.",
+    "The expression '{expression}' of {name} has no value ({reason}): correct it.",
+    "cells '{cell}' of {size} mm",
+    # Loads and Sizing, Design Study.
+    "No load case is chosen: tick at least one.",
+    "Least mass needs a limit: of stress, displacement, buckling, frequency.",
+    "Neither the infill nor its load cases have a material: choose one for the infill.",
+    "'{label}' refers to no face, edge or vertex: choose some of the part's.",
+    "{name} has no values: write them as 6, 8, 10 or as 6 to 10 in 5.",
+    "The infill of this study has gone: choose another one as Infill.",
+    # What a cell does.
+    "0: it carries nothing that way",
+    "{figure} E of the solid",
+    "{figure} of the solid's yield stress",
+    "{figure} of the solid's",
+)  # fmt: skip
+#: A number as the engine writes it, with the error behind it.
+_NUMBERS = re.compile(r"[-+]?[\d,]*\.?\d+(e[-+]?\d+)?( \+- [\d.e-]+ %| g)?")
+
+
+def localise_cell(text: str) -> str:
+    """The same of a table's cell, which may be a number."""
+    return _localise_value(text)
+
+
+def localise(text: str) -> str:
+    """A sentence, or several lines of them, in the user's language as far as they are known.
+
+    Args:
+        text: of the engine or a document, in English.
+    """
+    return "\n".join(map(_localise_line, text.split("\n")))
+
+
+def _localise_line(line: str) -> str:
+    if not line:
+        return line
+    exact = translate(_CONTEXT, line)
+    if exact != line:
+        return str(exact)
+    for sentence, pattern in _patterns():
+        found = pattern.fullmatch(line)
+        if found is not None:
+            said = translate(_CONTEXT, sentence)
+            if said != sentence:  # else the user reads English
+                return str(
+                    said.format(**{k: _localise_value(v) for k, v in found.groupdict().items()})
+                )
+    return line
+
+
+def _localise_value(value: str) -> str:
+    return spoken(value) if _NUMBERS.fullmatch(value) else _localise_line(value)
+
+
+@lru_cache(maxsize=1)
+def _patterns() -> tuple[tuple[str, re.Pattern[str]], ...]:
+    """The sentences that figures are put into, and what finds those again."""
+    return tuple(
+        (sentence, re.compile(re.sub(r"\\\{(\w+)\\\}", r"(?P<\1>.+?)", re.escape(sentence))))
+        for sentence in SENTENCES
+        if "{" in sentence
+    )

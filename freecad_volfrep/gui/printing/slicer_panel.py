@@ -339,7 +339,8 @@ class SlicerPanel:
         ):
             red, green, blue = (round(255 * part) for part in colour)
             swatch = f"<span style='color: rgb({red},{green},{blue})'>&#9632;</span> {number}"
-            cells = (swatch, f"{mean:.1f} %", f"{told:.1f} %", f"{grouped(round(volume))}\u00a0mm\u00b3")
+            held = f"{grouped(round(volume))}\u00a0mm\u00b3"
+            cells = (swatch, f"{mean:.1f} %", f"{told:.1f} %", held)
             lines.append("".join(f"<td align='right'>{cell}&nbsp;</td>" for cell in cells))
         table = "".join(f"<tr>{line}</tr>" for line in lines)
         told = translate(

@@ -26,14 +26,12 @@ from ..measuring import (
     volfrep,
 )
 from ..published import POINTS, RMS
-from ..tables import Column, Row, measured, table
+from ..tables import Row, measured
 from .blocks import freecad_fuse
 
 CELL, COUNT = "BCC", 2
 RESOLUTIONS = (8, 10, 15, 20, 30, 45, 60)
 QUICK_RESOLUTIONS = (10, 15, 30)
-#: Of these, what the table has; the plot has all.
-TOLD = (10, 15, 30, 60)
 #: Of the facets that stand for the B-rep, mm.
 DEFLECTION = 0.001
 #: Distances to a mesh take longer than those to the exact surface.
@@ -89,34 +87,26 @@ def _distances(path: Path, brep: TriangleMesh | None) -> Row:
     return row
 
 
-def _by_resolution(rows: list[Row]) -> str:
-    """A row a resolution, with the RMS of each tool."""
-    tools = list(dict.fromkeys(row["tool"] for row in rows))
-    columns = [Column("points or facets along L", "resolution")]
-    columns += [Column(tool, tool) for tool in tools]
-    shown: dict[int, Row] = {}
-    for row in rows:
-        at = shown.setdefault(row["resolution"], {"resolution": row["resolution"]})
-        at[row["tool"]] = row.get("note") or (format(row["rms"], ".4f") if "rms" in row else "")
-    return table(columns, list(shown.values()))
-
-
 def _to_brep(result: dict[str, Any]) -> str:
     """The distances that the paper measured: to a B-rep, at its resolution."""
     brep = result["reference"]
+    told = measured(result["rows"], "rms_brep")
     found = ", ".join(
-        f"{row['tool']} {row['rms_brep']:.4f}"
-        for row in measured(result["rows"], "rms_brep")
-        if row["resolution"] == POINTS
+        f"{row['tool']} {row['rms_brep']:.4f}" for row in told if row["resolution"] == POINTS
+    )
+    notes = "".join(
+        f" {row['tool']}, {row['resolution']}: {row['note']}."
+        for row in result["rows"]
+        if row.get("note")
     )
     made = brep.get("note") or (
         f"{brep['triangles']:,} facets within {DEFLECTION} mm, fused in {brep['fuse_seconds']:.0f} s"
     )
-    return f"At {POINTS} points the paper has {RMS:g}, to a B-rep; to one of FreeCAD's Part ({made}) by {MESH_SAMPLES:,} points: {found or 'not measured'}."
+    return f"At {POINTS} points the paper has {RMS:g}, to a B-rep; to one of FreeCAD's Part ({made}) by {MESH_SAMPLES:,} points: {found or 'not measured'}.{notes}"
 
 
 def render(result: dict[str, Any], images: Path) -> str:
-    """The table and the plot."""
+    """The plot, and the figure that the paper has."""
     rows = result["rows"]
     tools = dict.fromkeys(row["tool"] for row in rows)
     data = [
@@ -137,8 +127,5 @@ def render(result: dict[str, Any], images: Path) -> str:
 2 x 2 x 2 BCC cells, L = 10, r = 1: RMS in mm of the distances of {SURFACE_SAMPLES:,} points, spread over each surface, to the exact one.
 
 {plot}
-
-{_by_resolution([row for row in rows if row["resolution"] in TOLD])}
-
 {_to_brep(result)}
 """

@@ -34,9 +34,9 @@ BAR_SECONDS, FINE_BAR_SECONDS = 1.0, 4.0
 TIMES = 3
 
 LEFT_OUT = (
-    "meshlib and OpenVCAD (receiving them counts as agreement to their licences, which a step of "
-    "`make` should not give), open3d and pymeshlab (no lattices, and the same two ways), PicoGK (a "
-    ".NET library), and those of which the paper has figures"
+    "meshlib and OpenVCAD (receiving them counts as agreement to their licences), open3d and "
+    "pymeshlab (no lattices, and the same two ways), PicoGK (a .NET library), and those of which "
+    "the paper has figures"
 )
 
 

@@ -154,7 +154,7 @@ def render(result: dict[str, Any], images: Path) -> str:
 
 Skin of {SHELL:g} mm, L = 10, r = 1; from the file of the part to the STL of one body. "r changed": the slower of two later runs (r = {RADII[1]:g}, then {RADII[2]:g}) with the stages' results kept. The paper's times begin with the shell already made; ours make it. The published method on the same part is given our cavity and voxels (their time not included), and its cells are cut and joined by trimesh with manifold3d: {closed} of its {len(files)} files are closed.
 
-Box {_box()}, grid {grid} as in the paper, which counts {BRACKET_ACTIVE} active cells; the rules give {counts}. Ours fills the cells that touch the cavity.
+Box {_box()}, grid {grid} as in the paper, which counts {BRACKET_ACTIVE} active cells; by our rules there are {counts}, of which the last are filled.
 
 {table(columns, rows)}
 

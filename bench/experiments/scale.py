@@ -144,7 +144,7 @@ def render(result: dict[str, Any], images: Path) -> str:
         minute = law.inverse(60.0)
         beyond = "" if minute <= max(cells) else f" (extrapolated from {max(cells):,})"
         laws.append(
-            f"- {setting.replace(' / ', '/')}: exponent **{law.exponent:.3f}** from {LARGE:,} cells on (R2 {law.r2:.4f}), {whole.exponent:.3f} from {min(cells):,} on, flattened by the start of the process; {minute:,.0f} cells in one minute{beyond}."
+            f"{setting.replace(' / ', '/')} **{law.exponent:.3f}** ({whole.exponent:.3f}), {minute:,.0f} cells in one minute{beyond}"
         )
     data.append(plots.Line("paper: one hour (text)", [CELLS_IN_AN_HOUR], [3600.0], "*"))
     plot = plots.lines(
@@ -159,7 +159,7 @@ Blocks of n x n x n CVC cells, L = 10, r = 1; single runs: seconds, MB of the fi
 
 {_table(rows)}
 
-{chr(10).join(laws)}
+Exponent of time against cells from {LARGE:,} on (from {LEAST_CELLS_FITTED:,}, flattened by the start of the process): {"; ".join(laws) or "not measured"}.
 
 {_beams_told(result["beams"])}
 """

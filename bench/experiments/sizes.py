@@ -9,7 +9,7 @@ from typing import Any
 from .. import plots
 from ..in_process import SHELL
 from ..measuring import Context, bracket, lattice_options, our_part
-from ..tables import Column, Row, measured, power_law, table, yes_no
+from ..tables import Row, measured, power_law
 
 SIZES = (14.0, 10.0, 7.0, 5.0, 4.0, 3.2)
 QUICK_SIZES = (10.0, 5.0)
@@ -26,8 +26,16 @@ def measure(context: Context) -> dict[str, Any]:
     return {"rows": rows, "bars": []}
 
 
+def _told(row: Row) -> str:
+    """A job in a few words."""
+    return (
+        f"L = {row['size']:g}, {row['cells_active']:,} cells: {row['seconds']:.2f} s, "
+        f"{row['mb']:,.1f} MB of file, {row['peak_mb']:,.0f} of memory"
+    )
+
+
 def render(result: dict[str, Any], images: Path) -> str:
-    """The table, the plot, and how stages grow."""
+    """The jobs, the plot, and how stages grow."""
     rows = measured(result["rows"], "stages")
     shown = [{**row, **row["stages"]} for row in rows]
     cells = [row["cells_active"] for row in rows]
@@ -41,26 +49,17 @@ def render(result: dict[str, Any], images: Path) -> str:
     if len(rows) > 1:
         profile = power_law(cells, [row["seconds"] for row in rows])
         growth = (
-            f"Whole process: time grows with the {profile.exponent:.2f}th power of the active cells; "
+            f" Time grows with the {profile.exponent:.2f}th power of the active cells; "
             "trimming is what grows, with the area that the wall cuts through."
         )
-    columns = [
-        Column("L, mm", "size", "g"),
-        Column("active cells", "cells_active", ","),
-        Column("s", "seconds", ".2f"),
-        Column("MB", "mb", ".1f"),
-        Column("peak MB", "peak_mb", ",.0f"),
-        Column("closed", "watertight", yes_no),
-        Column("bodies", "bodies"),
-    ]
-    notes = [row for row in result["rows"] if row.get("note")]
+    notes = "".join(
+        f" L = {row['size']:g}: {row['note']}." for row in result["rows"] if row.get("note")
+    )
     return f"""## Fig. 12a: cost by stage against cell size
 
-The GE bracket with a skin of {SHELL:g} mm, CVC, r = L / 10, one process each; closedness and bodies by the engine's own report.
+The GE bracket with a skin of {SHELL:g} mm, CVC, r = L / 10, one process each.
 
 {plot}
 
-{table(columns, [*shown, *notes])}
-
-{growth}
+{"; ".join(map(_told, rows[:1] + rows[1:][-1:]))}.{growth}{notes}
 """

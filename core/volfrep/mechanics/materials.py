@@ -101,44 +101,41 @@ MATERIALS = {
     material.name.lower(): material
     for material in (
         SolidMaterial("Ti-6Al-4V", 4.41, 110_000, 0.34, 1_000, ("LPBF", "EBM"),
-                      "EOS Titanium Ti64, data sheet (M 290, 30 um): density; modulus, nu and "
-                      "yield not checked (FreeCAD's card of the wrought alloy: 114,000, 0.33 and "
-                      "910; JAMPT measured 1,130 by LPBF, 996 by EBM)"),
+                      "EOS Titanium Ti64, data sheet (M 290, 30 um): density; the others not "
+                      "checked (JAMPT measured a yield of 1,130 by LPBF, 996 by EBM)"),
         SolidMaterial("AlSi10Mg", 2.67, 70_000, 0.33, 240, _METAL,
                       "EOS Aluminium AlSi10Mg, data sheet (upright): density, modulus, yield; nu: "
                       "handbook"),
         SolidMaterial("316L", 7.97, 185_000, 0.30, 480, _METAL,
-                      "EOS StainlessSteel 316L-4441, process data sheet (M 290, 20 um, upright): "
-                      "density and yield (M 400-4, 40 um: 7.9 and 490); modulus: the sheets give "
-                      "none, but it is within what Hitzler et al. measured (Materials 10, 2017, "
-                      "1136: 148,000 to 227,000 by direction); nu: handbook"),
+                      "EOS StainlessSteel 316L-4441, data sheet (M 290, 20 um, upright): "
+                      "density and yield; modulus within what Hitzler et al. measured "
+                      "(Materials 10, 2017, 1136: 148,000 to 227,000 by direction); nu: "
+                      "handbook"),
         SolidMaterial("IN718", 8.15, 160_000, 0.29, 634, _METAL,
-                      "EOS NickelAlloy IN718, process data sheet (M 290, 40 um) as others quote "
-                      "it: density; modulus and yield not checked; nu: handbook"),
+                      "EOS NickelAlloy IN718, data sheet (M 290, 40 um) as others quote it: "
+                      "density; modulus and yield not checked; nu: handbook"),
         SolidMaterial("PA12", 0.93, 1_550, 0.40, 42, _POWDER,
-                      "EOS PA 2200, data sheet as others quote it: modulus and strength (upright; "
-                      "along X 1,600 and 48 MPa); density as additive.tools gives it for PA 2200 "
+                      "EOS PA 2200, data sheet as others quote it: modulus and strength "
+                      "(upright; along X 1,600 and 48 MPa); density within additive.tools' "
                       "(0.88-0.96); nu: handbook"),
         SolidMaterial("PA11", 0.99, 1_600, 0.40, 48, _POWDER,
-                      "EOS PA 1101: not checked in its sheet, but within what additive.tools "
-                      "gives for PA11 (0.93-1.00, 1,000-2,000, 37-48); nu: handbook"),
+                      "EOS PA 1101: not checked in its sheet, but within additive.tools' "
+                      "(0.93-1.00, 1,000-2,000, 37-48); nu: handbook"),
         SolidMaterial("PLA", 1.24, 2_350, 0.36, 49.5, ("FFF",),
                       "Ultimaker PLA, data sheet as others quote it: modulus and yield; density "
                       "and nu: FreeCAD's card PLA-Generic"),
         SolidMaterial("PETG", 1.27, 2_100, 0.38, 47, ("FFF",),
                       "Prusament PETG, data sheet as others quote it: density; modulus and nu: "
-                      "the VOLFREP paper's sample; yield not checked in the sheet, but within "
-                      "what additive.tools gives for strength (44-56)"),
+                      "the VOLFREP paper's sample; yield not checked, but within "
+                      "additive.tools' strength (44-56)"),
         SolidMaterial("ABS", 1.10, 1_680, 0.39, 39, ("FFF",),
-                      "Ultimaker ABS: not checked in its sheet, but between others: Kimya's 1,443 "
-                      "and 35.3 (its maker's figures in PMC10406103), Stratasys' P400 of 1.05 "
-                      "g/cm3, 2,480 and 34 (FDM 2000 manual); FreeCAD's card ABS-Generic: density "
-                      "1.06, nu 0.37"),
+                      "Ultimaker ABS: not checked in its sheet, but between Kimya's 1,443 and "
+                      "35.3 (PMC10406103) and Stratasys' P400 of 1.05 g/cm3, 2,480 and 34; "
+                      "FreeCAD's card ABS-Generic: density 1.06, nu 0.37"),
         SolidMaterial("Resin", 1.17, 2_800, 0.40, 65, ("SLA",),
-                      "Formlabs Clear Resin V4 after curing: not checked in its sheet; density "
-                      "and strength within what renato.design gives for clear resins (1.1-1.2, "
-                      "38-65), modulus near its maker's 2,900 for another clear resin, Surgical "
-                      "Guide (PMC10406103); nu: handbook"),
+                      "Formlabs Clear Resin V4, cured: not checked in its sheet; density and "
+                      "strength within renato.design's for clear resins (1.1-1.2, 38-65), "
+                      "modulus near 2,900 of Surgical Guide (PMC10406103); nu: handbook"),
     )
 }  # fmt: skip
 _FIELDS = {"name", "density", "young", "poisson", "yield_stress", "processes", "source"}

@@ -61,6 +61,14 @@ def _optimise(seen: Seen, at: Path) -> None:
     assert 0.4 < seen["best"].x < 1.6
 
 
+def _optuna(seen: Seen, at: Path) -> None:
+    trials = seen["search"].trials
+    assert [trial.state.name for trial in trials] == ["COMPLETE"] * 30
+    assert len(list((at / "runs" / "records").iterdir())) == 30
+    masses = [trial.values[0] for trial in seen["best"]]
+    assert min(masses) == min(trial.values[0] for trial in trials)
+
+
 def _report(seen: Seen, at: Path) -> None:
     assert volfrep.read_solid(at / "light.3mf").volume == pytest.approx(
         seen["part"].mesh.volume, rel=1e-4
@@ -107,6 +115,7 @@ SCRIPTS: dict[str, tuple[Callable[[Seen, Path], None], bool]] = {
     "networkx_graph": (_networkx, True),
     "properties_table": (_properties, True),
     "optimise": (_optimise, True),
+    "optuna_search": (_optuna, False),
     "report_3mf": (_report, True),
     "layers": (_layers, True),
     "sized_for_loads": (_sized, True),
@@ -121,6 +130,7 @@ NEEDS = {
     "properties_table": "pandas",
     "sized_for_loads": "pandas",
     "dask_study": "distributed",
+    "optuna_search": "optuna",
     "conformal": "meshio",
 }
 
@@ -148,7 +158,9 @@ def test_a_script_is_short_and_takes_public_names_only(name: str) -> None:
 
 
 @pytest.mark.costly_cases("a_mesh", "own_field", "report_3mf", "sized_for_loads")
-@pytest.mark.slow_cases("dask_study", "optimise", "own_cell", "tpms_formula", "fem_field")
+@pytest.mark.slow_cases(
+    "dask_study", "optimise", "optuna_search", "own_cell", "tpms_formula", "fem_field"
+)
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_a_script_does_what_it_says(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

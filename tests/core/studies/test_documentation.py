@@ -8,9 +8,7 @@ from pathlib import Path
 
 import pytest
 
-import samples
 from volfrep import read_study
-from volfrep.io.write.stl import write_stl
 from volfrep.studies.actions import ACTIONS
 from volfrep.studies.designs import combinations
 
@@ -42,20 +40,3 @@ def test_what_is_said_of_loads_is_a_studys_too(tmp_path: Path) -> None:
 def test_every_action_has_its_row() -> None:
     table = TEXT.split("## What is done with each")[1].split("##")[0]
     assert re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE) == list(ACTIONS)
-
-
-@pytest.mark.slow
-def test_an_optimiser_asks_and_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    optuna = pytest.importorskip("optuna", reason="needs the optional package optuna")
-    optuna.logging.set_verbosity(optuna.logging.WARNING)
-    monkeypatch.chdir(tmp_path)
-    write_stl(samples.box(), tmp_path / "bracket.stl")
-    names: dict = {}
-    (example,) = shown("python")
-    exec(example, names)
-    trials = names["search"].trials
-    assert len(trials) == 30
-    assert {trial.state.name for trial in trials} == {"COMPLETE"}
-    assert len(list((tmp_path / "runs" / "records").iterdir())) == 30
-    masses = [trial.values[0] for trial in names["best"]]
-    assert min(masses) == min(trial.values[0] for trial in trials)

@@ -172,7 +172,7 @@ def properties_table() -> str:
 def materials_table() -> str:
     """The materials, as Markdown."""
     lines = [
-        "| material | density, g/cm3 | E, MPa | nu | yield, MPa | processes | from |",
+        "| material | density, g/cm3 | E, MPa | Poisson's ratio | yield, MPa | processes | from |",
         "|---|---|---|---|---|---|---|",
     ]
     lines += [

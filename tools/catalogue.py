@@ -152,7 +152,7 @@ def _about(cell: UnitCell) -> str:
 
 def properties_table() -> str:
     """The cells at one relative density, as Markdown."""
-    lines = ["| cell | r / L | E [100] | E [111] | G | strength |", "|---|---|---|---|---|---|"]
+    lines = ["| cell | E [100] | E [111] | G | strength |", "|---|---|---|---|---|"]
     for name, cell in shipped.catalogue().items():
         if not cell.values[0, 0] <= OF_TABLE <= cell.values[-1, 0]:
             continue
@@ -165,7 +165,7 @@ def properties_table() -> str:
         if abs(upright - found.E100) > 1e-3 * upright:
             edge += f", z {upright:.3g}"
         strength = f"{values['strength']:.3g}" if values["strength"] > 1e-12 else "0"
-        lines.append(f"| {name} | {ratio:.4f} | {edge} | {diagonal} | {shear} | {strength} |")
+        lines.append(f"| {name} | {edge} | {diagonal} | {shear} | {strength} |")
     return "\n".join(lines)
 
 

@@ -83,7 +83,10 @@ def _table(wanted: str) -> str:
 
 
 def _row(row: Parameter) -> str:
-    """What it is called, its default, and what it means; in italics what it needs."""
+    """What it is called, its default, and what it means; in italics what it needs.
+
+    What the needed parameters need themselves is told with those.
+    """
     option = [f"`{row.option}{_shape(row)}`"] if row.in_command else []
     default = row.default_text or ("required" if row.required else "")
     if row.unit and row.default:
@@ -91,7 +94,15 @@ def _row(row: Parameter) -> str:
     if row.in_freecad and row.initial is not None:
         default += f"; {row.initial} in FreeCAD"
     told = f" ({default})" if default and (row.kind != "flag" or row.default) else ""
-    needs = f" *({', '.join(map(_need, row.needs))})*" if row.needs else ""
+    told_there = {
+        need
+        for own in row.needs
+        for other in PARAMETERS
+        if other.name in own.names and not own.absent
+        for need in other.needs
+    }
+    wanted = [_need(need) for need in row.needs if need not in told_there]
+    needs = f" *({', '.join(wanted)})*" if wanted else ""
     names = ", ".join([*option, *_properties(row)])
     return f"- {names}{told}: {row.help}{_choices(row)}{needs}\n"
 

@@ -104,16 +104,10 @@ def notes(specimens: list[dict[str, Any]]) -> str:
     return "".join(f"- {row['name']}: {row['note']}.\n" for row in specimens if "note" in row)
 
 
-def ratios(
-    specimens: list[dict[str, Any]], found: dict[str, Any], figure: str, read: str | None = None
-) -> Any:
+def ratios(specimens: list[dict[str, Any]], found: dict[str, Any], figure: str) -> Any:
     """(n,) predicted over measured."""
     return np.array(
-        [
-            best(found[row["name"]])[figure] / row[figure]
-            for row in specimens
-            if figure in row and read in (None, row["read"])
-        ]
+        [best(found[row["name"]])[figure] / row[figure] for row in specimens if figure in row]
     )
 
 
@@ -123,13 +117,10 @@ def error_table(specimens: list[dict[str, Any]], found: dict[str, Any]) -> str:
         "| figure | specimens | mean error | mean size of it | from, to | "
         "measured over predicted, least |\n|---|---|---|---|---|---|\n"
     ]
-    groups = [(figure, None) for figure in FIGURES]
-    groups += [("young", "text"), ("strength", "text")]
-    for figure, read in groups:
-        error = ratios(specimens, found, figure, read) - 1.0
-        name = figure if read is None else f"{figure}, the complete set only"
+    for figure in FIGURES:
+        error = ratios(specimens, found, figure) - 1.0
         lines.append(
-            f"| {name} | {len(error)} | {error.mean():+.0%} | {np.abs(error).mean():.0%} "
+            f"| {figure} | {len(error)} | {error.mean():+.0%} | {np.abs(error).mean():.0%} "
             f"| {error.min():+.0%}, {error.max():+.0%} | {1 / (1 + error.max()):.2f} |\n"
         )
     return "".join(lines)

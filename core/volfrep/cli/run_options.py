@@ -100,7 +100,7 @@ RUN_OPTIONS = (
         "FILE", required=True, writes="output", short="o",
     ),
     RunOption(
-        "output", ("slice",), "to make; layers that the last run wrote there are replaced",
+        "output", ("slice",), "of layers, which replace those of the last run",
         "FOLDER", required=True, writes="output", short="o",
     ),
     RunOption(
@@ -120,7 +120,7 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "output", ("sweep",),
-        "of records, table and page; what is done there is not done again",
+        "of records, table and page; what is done is not done again",
         "FOLDER", required=True, short="o",
     ),
     RunOption(
@@ -268,26 +268,26 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "as-printed", FITTED,
-        "tell how thick struts come out, by a table (LPBF-Ti64, LPBF-316L, SLS-PA12) or a .csv "
-        "file of your own with inclination, nominal, measured; the print report is of these",
+        "thickness of struts as printed, by a table (LPBF-Ti64, LPBF-316L, SLS-PA12) or a .csv "
+        "file of inclination, nominal, measured; the print report is of these",
         "TABLE", MATERIAL_GROUP, reads="table of printed diameters",
     ),
     RunOption(
         "as-printed", ("size",),
-        "stress, stiffness and mass of struts as they come out, by a table as of fill; radii are "
+        "stress, stiffness and mass of struts as printed, by a table as of fill; radii are "
         "written as drawn",
         "TABLE", GOAL_GROUP, reads="table of printed diameters",
     ),
     RunOption(
         "scatter", ("size",),
-        "stress and buckling of struts thinner by so many standard deviations of that table "
+        "struts thinner by so many of that table's standard deviations, for stress and buckling "
         "(default 0)",
         "N", GOAL_GROUP, float, 0.0,
     ),
     RunOption(
         "as-printed", ("properties",),
-        "of struts as they come out, by a table as of fill: of the one radius that takes the "
-        "volume of all",
+        "of struts as printed, by a table as of fill: of the one radius that takes the volume of "
+        "all",
         "TABLE", reads="table of printed diameters",
     ),
     RunOption(
@@ -296,7 +296,7 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "compensate", FITTED,
-        "draw struts so that by that table they come out as thick as asked for", "", MATERIAL_GROUP,
+        "draw struts so that by that table they print as thick as asked for", "", MATERIAL_GROUP,
     ),
     RunOption(
         "bare-surface", ("fill",),
@@ -493,7 +493,7 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "symmetry", ("size",),
-        "planes under which radii and a sized skin are their own images; loads need not be",
+        "planes of symmetry of radii and a sized skin; loads need not have them",
         "x=MM,y=MM", GOAL_GROUP,
     ),
     RunOption("steps", ("size",), "of the search, at most (default 60)", "N", GOAL_GROUP, int, 60),

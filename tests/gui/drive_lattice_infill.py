@@ -559,6 +559,20 @@ def pick_in_the_panel(doc, obj):
     click_in_view(top, lambda: not obj.OpenFaces)
     check("another click closes it", obj.OpenFaces == [], obj.OpenFaces)
     click_in_view(top, lambda: obj.OpenFaces)
+    begin("DrainPoints")
+    length = panel_part("PickLength", QtGui.QDoubleSpinBox)
+    check(
+        "holes have a first diameter", length.isVisible() and length.value() == 3.0, length.value()
+    )
+    there = (0.7 * size[0], 0.4 * size[1], size[2])
+    click_in_view(there, lambda: obj.DrainPoints)
+    holes = [(point - App.Vector(*there)).Length for point in obj.DrainPoints]
+    check("a click is a hole there", len(holes) == 1 and holes[0] < 0.2, (holes, told.text()))
+    check("of that diameter", obj.DrainDiameter.Value == 3.0, obj.DrainDiameter)
+    voids = panel_part("PrintFigures", QtGui.QLabel)
+    check("no void is closed then", wait_until(lambda: "closed voids: none" in voids.text()),
+          voids.text())  # fmt: skip
+    picture("10_picked_hole")
     begin("BuildDirection")
     before = tuple(obj.BuildDirection)
     front = (0.5 * size[0], 0.0, 0.5 * size[2])
@@ -576,6 +590,9 @@ def pick_in_the_panel(doc, obj):
     check("and can be cleared", not any(c.isdigit() for c in told.text()), told.text())
     click(button)
     check("the solid goes again", wait_until(lambda: not obj.Base.Visibility))
+    obj.OpenFaces = []
+    click(panel_part("Compute"))
+    check("a mesh has the hole", wait_until(lambda: len(obj.DrainHoles) == 1), obj.Status)
     check("and so does the arrow", not scene_has("VolfrepPicked"))
     answer_panel("Cancel")
     check("Cancel takes all of it back", obj.OpenFaces == [], obj.OpenFaces)

@@ -24,12 +24,29 @@ PICKED = {
 LENGTHS = {"SkinFaces": "SkinThicknesses"}
 #: Of these all faces have one length; solids are picked as well.
 DISTANCES = {"KeepSolidAround": "KeepDistance"}
+#: Of these all holes have one diameter, which the first one that is picked gets.
+DIAMETERS = {"DrainPoints": "DrainDiameter", "DrainFaces": "DrainDiameter"}
+#: A hole's first diameter where no process says what empties a void, mm.
+HOLE = 3.0
 _SWITCHES = {p.property_name: p.switch_name for p in PARAMETERS if p.switch}
 
 
 def pickable(obj: App.DocumentObject) -> list[str]:
     """Those that have an effect with the other values of an infill, or would once they are set."""
-    return [name for name in PICKED if "Hidden" not in obj.getEditorMode(_SWITCHES.get(name, name))]
+    needed = {**_SWITCHES, **DIAMETERS}
+    return [name for name in PICKED if "Hidden" not in obj.getEditorMode(needed.get(name, name))]
+
+
+def hole_diameter(obj: App.DocumentObject) -> float:
+    """The diameter of an infill's drain holes, mm; without any, what its process asks for."""
+    from volfrep.reports.processes import find_process
+
+    from .materials import process_of
+
+    if obj.DrainDiameter.Value:
+        return float(obj.DrainDiameter.Value)
+    process = process_of(obj)
+    return (find_process(process).escape_hole if process else None) or HOLE
 
 
 def pick(
@@ -38,19 +55,22 @@ def pick(
     owner: App.DocumentObject,
     element: str,
     length: float | None = None,
+    at: App.Vector | None = None,
 ) -> None:
     """Set a property to what was picked.
 
     A face is added, or taken away where it is there already, with the same length if faces have
-    one; points are added; a direction and a single point take the place of the last. Where solids
-    may be picked, a face that is not one of the infill's solid stands for its own.
+    one; points are added, those of holes where the face was clicked at; a direction and a single
+    point take the place of the last. Where solids may be picked, a face that is not one of the
+    infill's solid stands for its own.
 
     Args:
         obj: the infill.
         name: one of `PICKED`.
         owner: the object that was picked.
         element: its face, edge or vertex, or empty.
-        length: of one of `LENGTHS`, mm.
+        length: of one of `LENGTHS`, or of one of `DIAMETERS` where there are no holes yet, mm.
+        at: where the mouse has picked it, mm, in the document's coordinates; None elsewhere.
 
     Raises:
         VolfrepError: it has no direction, no point, or is no face.
@@ -72,11 +92,15 @@ def pick(
     elif PICKED[name] == DIRECTION:
         setattr(obj, name, direction_of(owner, element, frame))
     elif obj.getTypeIdOfProperty(name) == "App::PropertyVectorList":
-        setattr(obj, name, [*getattr(obj, name), point_of(owner, element, frame)])
+        is_at = name in DIAMETERS and element.startswith("Face") and at is not None
+        point = frame.inverse().multVec(at) if is_at else point_of(owner, element, frame)
+        setattr(obj, name, [*getattr(obj, name), point])
     else:
         setattr(obj, name, point_of(owner, element, frame))
     if name in _SWITCHES:
         setattr(obj, _SWITCHES[name], True)
+    if name in DIAMETERS and not obj.DrainDiameter.Value:
+        obj.DrainDiameter = length or hole_diameter(obj)
 
 
 def picked_of(obj: App.DocumentObject, name: str) -> Any:

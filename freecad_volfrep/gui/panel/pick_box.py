@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import zip_longest
 from typing import Any
 
 import FreeCAD as App
@@ -13,11 +14,13 @@ import numpy as np
 from freecad_volfrep.bridge.solids import face_facets, parent_placement
 from freecad_volfrep.features.infill.openings import kept_mesh, thick_faces
 from freecad_volfrep.features.infill.picking import (
+    DIAMETERS,
     DIRECTION,
     DISTANCES,
     FACES,
     LENGTHS,
     PICKED,
+    hole_diameter,
     pick,
     pickable,
     picked_of,
@@ -153,15 +156,18 @@ class PickBox(QtWidgets.QWidget):
         """Show what was chosen to be picked."""
         name = self._what.currentData()
         for widget in (self._length, self._length_name):
-            widget.setVisible(name in LENGTHS or name in DISTANCES)
-        self._length_name.setText(
-            translate("VolfrepTaskPanel", "Thickness")
-            if name in LENGTHS
-            else translate("VolfrepTaskPanel", "Distance")
-        )
+            widget.setVisible(name in LENGTHS or name in DISTANCES or name in DIAMETERS)
+        if name in LENGTHS:
+            self._length_name.setText(translate("VolfrepTaskPanel", "Thickness"))
+        elif name in DIAMETERS:
+            self._length_name.setText(translate("VolfrepTaskPanel", "Diameter"))
+        else:
+            self._length_name.setText(translate("VolfrepTaskPanel", "Distance"))
         self._length.blockSignals(True)
         if name in DISTANCES:
             self._length.setValue(getattr(self._obj, DISTANCES[name]).Value)
+        elif name in DIAMETERS:
+            self._length.setValue(hole_diameter(self._obj))
         elif name in LENGTHS:
             given = getattr(self._obj, LENGTHS[name])
             self._length.setValue(given[-1] if given else THICKER * self._obj.ShellThickness.Value)
@@ -169,11 +175,12 @@ class PickBox(QtWidgets.QWidget):
         self.show_picked()
 
     def _set_length(self, value: float) -> None:
-        """Take over the one length of all faces; that of a face counts when it is picked next."""
+        """Take over the one length of all; that of a face or a first hole counts when picked."""
         name = self._what.currentData()
-        if name in DISTANCES and value > 0.0:
-            setattr(self._obj, DISTANCES[name], value)
-            self._changed(DISTANCES[name])
+        common = DISTANCES.get(name) or (DIAMETERS.get(name) if getattr(self._obj, name) else None)
+        if common and value > 0.0:
+            setattr(self._obj, common, value)
+            self._changed(common)
 
     def _turn(self, way: App.Vector) -> None:
         """Take over a direction that the mouse has turned the arrow to."""
@@ -224,17 +231,17 @@ class PickBox(QtWidgets.QWidget):
         if not self._pick.isChecked() or self._picture.is_held:
             return
         chosen = [
-            (item.Object, element)
+            (item.Object, element, at)
             for item in Gui.Selection.getSelectionEx()
-            for element in (item.SubElementNames or ("",))
+            for element, at in zip_longest(item.SubElementNames or ("",), item.PickedPoints)
         ]
         if not chosen:
             return
         Gui.Selection.clearSelection()
         name = self._what.currentData()
         try:
-            for owner, element in chosen:
-                pick(self._obj, name, owner, element, self._length.value())
+            for owner, element, at in chosen:
+                pick(self._obj, name, owner, element, self._length.value(), at)
         except VolfrepError as error:
             self._refused(str(error))
             return
@@ -249,20 +256,21 @@ class PickBox(QtWidgets.QWidget):
 
 
 def _length_field() -> Any:
-    """A field for what faces that are picked have beside: the skin's thickness, a distance."""
+    """A field for what is beside what is picked: a skin's thickness, a diameter, a distance."""
     field = QtWidgets.QDoubleSpinBox()
     field.setObjectName("PickLength")
     field.setSuffix(" mm")
     field.setRange(0.0, MOST_LENGTH)
     field.setDecimals(2)
     field.setSingleStep(0.5)
-    field.setAccessibleName(translate("VolfrepTaskPanel", "Thickness or distance"))
+    field.setAccessibleName(translate("VolfrepTaskPanel", "Thickness, diameter or distance"))
     field.setToolTip(
         translate(
             "VolfrepTaskPanel",
             "Of faces with a skin of their own: the thickness of those that are picked next; a "
             "face that has another gets it, one that has it goes back to the usual skin, and 0 "
-            "leaves it open. Of what is kept solid: the distance from all its faces",
+            "leaves it open. Of drain holes: the diameter of all. Of what is kept solid: the "
+            "distance from all its faces",
         )
     )
     return field

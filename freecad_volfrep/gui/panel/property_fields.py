@@ -36,6 +36,8 @@ ENTRIES = marked("App::Property", "None", "Custom", "Of the solid")
 LABELS = {
     "PrintMaterial": MATERIAL,
     "PrintProcess": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Process"),
+    "DrainPoints": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Drain holes"),
+    "DrainFaces": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Drain holes in faces"),
     "ShellThickness": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Skin thickness"),
     "Activation": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells kept"),
     "TargetDensity": QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Target relative density"),

@@ -4522,8 +4522,20 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Schneidet das Teil am Bildschirm auf, entlang einer verschiebbaren Ebene; noch einmal zeigt es ganz</translation>
     </message>
     <message>
+      <source>Diameter</source>
+      <translation>Durchmesser</translation>
+    </message>
+    <message>
       <source>Distance</source>
       <translation>Abstand</translation>
+    </message>
+    <message>
+      <source>Drain holes</source>
+      <translation>Entleerungslöcher</translation>
+    </message>
+    <message>
+      <source>Drain holes in faces</source>
+      <translation>Entleerungslöcher in Flächen</translation>
     </message>
     <message>
       <source>Driven by</source>
@@ -4574,8 +4586,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Netzwerke</translation>
     </message>
     <message>
-      <source>Of faces with a skin of their own: the thickness of those that are picked next; a face that has another gets it, one that has it goes back to the usual skin, and 0 leaves it open. Of what is kept solid: the distance from all its faces</source>
-      <translation>Von Flächen mit eigener Haut: die Dicke derer, die als Nächstes gewählt werden; eine Fläche mit anderer Dicke bekommt diese, eine mit dieser Dicke wieder die übliche Haut, und 0 lässt sie offen. Von dem, was massiv bleibt: der Abstand von allen seinen Flächen</translation>
+      <source>Of faces with a skin of their own: the thickness of those that are picked next; a face that has another gets it, one that has it goes back to the usual skin, and 0 leaves it open. Of drain holes: the diameter of all. Of what is kept solid: the distance from all its faces</source>
+      <translation>Von Flächen mit eigener Haut: die Dicke derer, die als Nächstes gewählt werden; eine Fläche mit anderer Dicke bekommt diese, eine mit dieser Dicke wieder die übliche Haut, und 0 lässt sie offen. Von Entleerungslöchern: der Durchmesser aller. Von dem, was massiv bleibt: der Abstand von allen seinen Flächen</translation>
     </message>
     <message>
       <source>On the other side</source>
@@ -4666,16 +4678,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Abstufung der Dicke</translation>
     </message>
     <message>
-      <source>Thickness or distance</source>
-      <translation>Dicke oder Abstand</translation>
-    </message>
-    <message>
       <source>Thickness profile</source>
       <translation>Verlauf der Dicke</translation>
     </message>
     <message>
       <source>Thickness reach</source>
       <translation>Reichweite der Dicke</translation>
+    </message>
+    <message>
+      <source>Thickness, diameter or distance</source>
+      <translation>Dicke, Durchmesser oder Abstand</translation>
     </message>
     <message>
       <source>To print</source>

@@ -4522,8 +4522,20 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Apre il pezzo sullo schermo lungo un piano che si può spostare; ancora una volta lo mostra intero</translation>
     </message>
     <message>
+      <source>Diameter</source>
+      <translation>Diametro</translation>
+    </message>
+    <message>
       <source>Distance</source>
       <translation>Distanza</translation>
+    </message>
+    <message>
+      <source>Drain holes</source>
+      <translation>Fori di scarico</translation>
+    </message>
+    <message>
+      <source>Drain holes in faces</source>
+      <translation>Fori di scarico nelle facce</translation>
     </message>
     <message>
       <source>Driven by</source>
@@ -4574,8 +4586,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Reti</translation>
     </message>
     <message>
-      <source>Of faces with a skin of their own: the thickness of those that are picked next; a face that has another gets it, one that has it goes back to the usual skin, and 0 leaves it open. Of what is kept solid: the distance from all its faces</source>
-      <translation>Delle facce con guscio proprio: lo spessore di quelle che si scelgono dopo; una faccia con un altro lo riceve, una che lo ha torna al guscio solito, e 0 la lascia aperta. Di ciò che resta pieno: la distanza da tutte le sue facce</translation>
+      <source>Of faces with a skin of their own: the thickness of those that are picked next; a face that has another gets it, one that has it goes back to the usual skin, and 0 leaves it open. Of drain holes: the diameter of all. Of what is kept solid: the distance from all its faces</source>
+      <translation>Delle facce con guscio proprio: lo spessore di quelle che si scelgono dopo; una faccia con un altro lo riceve, una che lo ha torna al guscio solito, e 0 la lascia aperta. Dei fori di scarico: il diametro di tutti. Di ciò che resta pieno: la distanza da tutte le sue facce</translation>
     </message>
     <message>
       <source>On the other side</source>
@@ -4666,16 +4678,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Gradazione dello spessore</translation>
     </message>
     <message>
-      <source>Thickness or distance</source>
-      <translation>Spessore o distanza</translation>
-    </message>
-    <message>
       <source>Thickness profile</source>
       <translation>Profilo dello spessore</translation>
     </message>
     <message>
       <source>Thickness reach</source>
       <translation>Portata dello spessore</translation>
+    </message>
+    <message>
+      <source>Thickness, diameter or distance</source>
+      <translation>Spessore, diametro o distanza</translation>
     </message>
     <message>
       <source>To print</source>

@@ -103,15 +103,15 @@ def ask_lengths(
     def typed() -> list[float]:
         return [float(field.property("rawValue")) for field in fields]
 
-    def told() -> None:
+    def check() -> None:
         is_sound = min(typed()) >= SHORTEST
         buttons.button(QtWidgets.QDialogButtonBox.Ok).setEnabled(is_sound)
         note.setText(estimate(typed()) if is_sound else "")
 
     for field in fields:
         # Its own signal has a type that Python's Qt does not know.
-        field.findChild(QtWidgets.QLineEdit).textChanged.connect(told)
-    told()
+        field.findChild(QtWidgets.QLineEdit).textChanged.connect(check)
+    check()
     done = box.exec_() == QtWidgets.QDialog.Accepted
     lengths = typed()
     box.deleteLater()

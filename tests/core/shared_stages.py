@@ -46,7 +46,7 @@ def _shared(
         key = key_of(*given) if ON[0] and monitor._callback is None else None
         if key is None:
             return function(*given)
-        key = key, threads._told
+        key = key, threads._wanted
         if key not in kept:
             if len(kept) == KEPT:
                 del kept[next(iter(kept))]

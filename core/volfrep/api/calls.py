@@ -121,8 +121,8 @@ def fill(
 
     cache = _cache(cache)
     check_kind("executor", executor, (Executor, type(None)), "an Executor of concurrent.futures")
-    with shown(progress) as told:
-        solid, wanted = _asked(part, unit, told, spec, dict(parameters), material)
+    with shown(progress) as callback:
+        solid, wanted = _asked(part, unit, callback, spec, dict(parameters), material)
         notes = []
         if compensate is not None:
             from ..design.as_printed import find_printed_table
@@ -134,7 +134,7 @@ def fill(
             notes.append(note)
 
         def make(spec: LatticeSpec) -> FilledPart:
-            infill = solve_target(solid, spec, progress=told, cache=cache, executor=executor)
+            infill = solve_target(solid, spec, progress=callback, cache=cache, executor=executor)
             return FilledPart(infill, cache)
 
         limits = limits_of(service, max_triangles, max_size)
@@ -243,8 +243,8 @@ def size(
     asked = {name: given.pop(name) for name in GOALS if name in given}
     refuse_unknown(given, accepted() | set(GOALS))
     cache = _cache(cache)
-    with shown(progress) as told:
-        solid, wanted = _asked(part, unit, told, spec, given, None)
+    with shown(progress) as callback:
+        solid, wanted = _asked(part, unit, callback, spec, given, None)
         loads = _loads(loads, solid)
         wanted = dataclasses.replace(wanted, density=loads.material.density)
         goal = goal_of(
@@ -255,16 +255,16 @@ def size(
         if prove == "file":
             check_file_proof(goal)
         made = size_struts(
-            solid, wanted, loads, goal, most_steps=steps, prove_it=proof, progress=told,
+            solid, wanted, loads, goal, most_steps=steps, prove_it=proof, progress=callback,
             cache=cache,
         )  # fmt: skip
 
         def fill(spec: LatticeSpec) -> FilledPart:
-            return FilledPart(Infill(solid, spec, progress=told, cache=cache), cache)
+            return FilledPart(Infill(solid, spec, progress=callback, cache=cache), cache)
 
         filled, kept = fill_within(solid, made.spec, limits, find_form("part.stl"), fill)
         if prove == "file":
-            prove_file(made, filled.result.mesh, loads, voxel=voxel, progress=told)
+            prove_file(made, filled.result.mesh, loads, voxel=voxel, progress=callback)
         return Part(_noted(filled.result, kept), filled.spec, solid, cache, filled, made)
 
 
@@ -328,17 +328,17 @@ def solve(
     from ..jobs.solving import solve_solid
     from ..mechanics.materials import find_material
 
-    with shown(progress) as told:
+    with shown(progress) as callback:
         mesh: TriangleMesh
         if isinstance(part, Part):
             mesh = part.result.mesh
             cases = _loads(loads, part.solid or mesh)
         else:
-            mesh = as_solid(part, unit, told)
+            mesh = as_solid(part, unit, callback)
             cases = _loads(loads, mesh)
         if material is not None:
             cases = dataclasses.replace(cases, material=find_material(material))
-        return solve_solid(mesh, cases, voxel=voxel, progress=told)
+        return solve_solid(mesh, cases, voxel=voxel, progress=callback)
 
 
 def orient(
@@ -377,10 +377,10 @@ def orient(
     from ..reports.orientation import orient as best_orientations
 
     whole("best", best, 1, 100)
-    with shown(progress) as told:
-        mesh = part.result.mesh if isinstance(part, Part) else as_solid(part, unit, told)
+    with shown(progress) as callback:
+        mesh = part.result.mesh if isinstance(part, Part) else as_solid(part, unit, callback)
         return best_orientations(
-            mesh, inclination_of(process, inclination), best=best, progress=told
+            mesh, inclination_of(process, inclination), best=best, progress=callback
         )
 
 
@@ -439,12 +439,12 @@ def homogenise(
     given = with_current_names(parameters)
     refuse_unknown(given, accepted())
     cache = _cache(cache)
-    with shown(progress) as told:
-        solid, wanted = _asked(part, unit, told, spec, given, None)
+    with shown(progress) as callback:
+        solid, wanted = _asked(part, unit, callback, spec, given, None)
         cases = _loads(loads, solid)
         return homogenise_part(
             solid, wanted, cases, element=element, frequencies=frequencies,
-            load_factors=load_factors, progress=told, cache=cache,
+            load_factors=load_factors, progress=callback, cache=cache,
         )  # fmt: skip
 
 
@@ -511,13 +511,13 @@ def block(
             "give 'size_grading', or 'fill' a box."
         )
     corners = np.array([(0, 0, 0), counts], float)
-    with shown(progress) as told:
+    with shown(progress) as callback:
         wanted = specified(spec, dict(parameters), material, lambda size: size * corners)
         limits = limits_of(service, max_triangles, max_size)
         made, kept = keep_within(
             wanted, limits, find_form("part.stl"),
             lambda spec: forecast_block(spec, counts).triangles,
-            lambda spec: Block(solve_block_target(spec, counts, progress=told), told),
+            lambda spec: Block(solve_block_target(spec, counts, progress=callback), callback),
         )  # fmt: skip
         return Part(_noted(made.result, kept), made.spec, None, StageCache(), made)
 
@@ -571,10 +571,10 @@ def mesh_network(
         found = read_network(graph, find_cell(cell) if isinstance(cell, str) else cell)
     bounds = np.array([found.nodes.min(axis=0), found.nodes.max(axis=0)])
     wanted = specified(spec, {**parameters, "network": found}, None, lambda size: bounds)
-    with shown(progress) as told:
+    with shown(progress) as callback:
         made, kept = keep_within(
             wanted, limits, find_form("part.stl"), lambda _: 0.0,
-            lambda spec: FreeGraph(spec, told),
+            lambda spec: FreeGraph(spec, callback),
         )  # fmt: skip
         return Part(_noted(made.result, kept), made.spec, None, StageCache(), made)
 
@@ -625,10 +625,17 @@ def slice_layers(
     from ..jobs.slices import write_layers
 
     check_path("folder", folder)
-    with shown(progress) as told:
-        solid, wanted = _asked(part, unit, told, spec, dict(parameters), material)
+    with shown(progress) as callback:
+        solid, wanted = _asked(part, unit, callback, spec, dict(parameters), material)
         return write_layers(
-            solid, wanted, folder, layer=layer, pixel=pixel, form=form, progress=told, cache=cache
+            solid,
+            wanted,
+            folder,
+            layer=layer,
+            pixel=pixel,
+            form=form,
+            progress=callback,
+            cache=cache,
         )
 
 
@@ -662,9 +669,9 @@ def coupons(
     """
     from ..jobs.coupons import make_coupons
 
-    with shown(progress) as told:
+    with shown(progress) as callback:
         wanted = specified(spec, dict(parameters), None)
-        return make_coupons(wanted, kinds, cells=cells, first=first, progress=told)
+        return make_coupons(wanted, kinds, cells=cells, first=first, progress=callback)
 
 
 def bare_surface(
@@ -704,9 +711,9 @@ def bare_surface(
     from ..output.bare_surface import bare_surface as made_of
 
     cache = _cache(cache)
-    with shown(progress) as told:
-        solid, wanted = _asked(part, unit, told, spec, dict(parameters), None)
-        return made_of(solid, wanted, progress=told, cache=cache)
+    with shown(progress) as callback:
+        solid, wanted = _asked(part, unit, callback, spec, dict(parameters), None)
+        return made_of(solid, wanted, progress=callback, cache=cache)
 
 
 def slicer_infill(
@@ -754,8 +761,8 @@ def slicer_infill(
     check_kind("wanted", wanted, (BandedInfill, type(None)), "a BandedInfill")
     known = {field.name for field in dataclasses.fields(BandedInfill) if field.init}
     refuse_unknown(parameters, known)
-    with shown(progress) as told:
-        solid = as_solid(part, unit, told)
+    with shown(progress) as callback:
+        solid = as_solid(part, unit, callback)
         values = parameters.get("field")
         if callable(values) and not isinstance(values, Field):
             step = float(np.ptp(solid.bounds, axis=0).max()) / 60.0
@@ -770,7 +777,7 @@ def slicer_infill(
             parameters["grading"] = "field"
         density = LatticeSpec.density if material is None else find_material(material).density
         wanted = dataclasses.replace(wanted or BandedInfill(), **parameters)
-        return cut_bands(solid, wanted, material_density=density, progress=told)
+        return cut_bands(solid, wanted, material_density=density, progress=callback)
 
 
 def _cache(cache: StageCache | None) -> StageCache:
@@ -795,8 +802,8 @@ def as_solid(
     >>> round(solid.volume, 6), solid.bounds[1].tolist()
     (6000.0, [5.0, 10.0, 15.0])
     """
-    with shown(progress) as told:
-        return solid_of(part, unit, told)
+    with shown(progress) as callback:
+        return solid_of(part, unit, callback)
 
 
 def _asked(

@@ -50,8 +50,8 @@ def _coupon(given: argparse.Namespace) -> None:
                      "volume_mm3": round(one.mesh.volume, 3), "mass_g": round(mass, 4),
                      **sizes})  # fmt: skip
         if not given.quiet:
-            told = ", ".join(f"{name} {value:g}" for name, value in sizes.items())
-            print_rows((f"{one.number} {one.kind}", f"{path}, {mass:.2f} g; mm: {told}"))
+            lengths = ", ".join(f"{name} {value:g}" for name, value in sizes.items())
+            print_rows((f"{one.number} {one.kind}", f"{path}, {mass:.2f} g; mm: {lengths}"))
         if one.struts:
             with replacing(folder / f"{one.number}_{one.kind}.csv") as file:
                 file.write(one.table().encode())

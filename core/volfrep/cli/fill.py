@@ -93,11 +93,11 @@ def _workers(options: FillOptions, triangles: int) -> Iterator[Executor | None]:
         module = "volfrep.trim.group_cut"
     elif count is None:
         count = 1
-    with processes(count, module, _told_lost) as executor:
+    with processes(count, module, _warn_lost) as executor:
         yield executor
 
 
-def _told_lost(ending: Ending) -> None:
+def _warn_lost(ending: Ending) -> None:
     """Tell at once of a worker that has ended; what it did is done again."""
     print(f"volfrep: A worker has ended {ending}: the others go on.", file=sys.stderr, flush=True)
 

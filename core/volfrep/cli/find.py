@@ -45,10 +45,10 @@ def _find(given: argparse.Namespace) -> None:
     print(f"{'cell':<25}{heads}{'strength':>12}")
     for one in found[: given.most]:
         modulus = one.young(way)
-        told = f"{modulus:.4g} +- {100.0 * error_along(one):.1f} %"
+        text = f"{modulus:.4g} +- {100.0 * error_along(one):.1f} %"
         print(
             f"{one.cell:<25}{one.strut_radius:>9.4g}{100.0 * one.relative_density:>8.2f} %"
-            f"{told:>32}{one.values['strength']:>12.4g}"
+            f"{text:>32}{one.values['strength']:>12.4g}"
         )
     if len(found) > given.most:
         print(f"and {len(found) - given.most} more: --most {len(found)} tells them all")

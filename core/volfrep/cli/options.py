@@ -442,11 +442,11 @@ def _print_process(
         return None
     from ..reports.processes import find_process
 
-    told = given.print_report
+    name = given.print_report
     if given.process is not None:
         process = find_process(given.process)
-        if told is None and form.meshed:
-            told = process.name
+        if name is None and form.meshed:
+            name = process.name
         if solid is not None and solid.processes and process.name not in solid.processes:
             print_warnings(
                 [
@@ -454,7 +454,7 @@ def _print_process(
                     f"{process.name}."
                 ]
             )
-    return None if told is None else find_process(told)
+    return None if name is None else find_process(name)
 
 
 def _check_reports(given: argparse.Namespace, form: Form) -> None:

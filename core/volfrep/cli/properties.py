@@ -43,7 +43,7 @@ def _cells(options: argparse.Namespace) -> None:
     if options.catalogue is None:
         if options.entry is not None or options.output is not None:
             raise VolfrepError("--entry and --output are for a cell of a catalogue: name its file.")
-        _library_told()
+        _print_library()
         return
     from ..design.cell_files.catalogue_text import catalogue_entry, catalogue_names
     from ..design.cells import make_cell
@@ -64,7 +64,7 @@ def _cells(options: argparse.Namespace) -> None:
     print_rows(*((key, str(value)) for key, value in rows.items()))
 
 
-def _library_told() -> None:
+def _print_library() -> None:
     from ..design.cells import LIBRARY, USES
     from ..design.tpms import FORMULA, SURFACES
     from ..mechanics.endless import stretched_strains
@@ -82,8 +82,8 @@ def _library_told() -> None:
         )
         print(row.rstrip())
         for one in cell.parameters:
-            told = f"{one.name} = {one.usual:g} ({one.least:g} to {one.most:g})"
-            print(f"    --cell-values {told}: {one.about}")
+            text = f"{one.name} = {one.usual:g} ({one.least:g} to {one.most:g})"
+            print(f"    --cell-values {text}: {one.about}")
     print("\nWalls, along a surface")
     for surface in SURFACES.values():
         print(f"{surface.name:<25}{surface.about}")

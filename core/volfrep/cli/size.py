@@ -81,10 +81,10 @@ def _size(given: argparse.Namespace) -> int | None:
     cache = StageCache()
     start = time.perf_counter()
     with drawn(options.quiet) as progress:
-        with _stopping(progress) as told:
+        with _stopping(progress) as callback:
             made = size(
                 solid, spec, loads, goal, most_steps=options.steps, prove_it=options.prove,
-                progress=told, cache=cache, watch=_teller(options.quiet, options.steps, goal),
+                progress=callback, cache=cache, watch=_teller(options.quiet, options.steps, goal),
             )  # fmt: skip
         seconds = time.perf_counter() - start
         # What was found is not lost where the file cannot be made.
@@ -138,15 +138,15 @@ def _stopping(progress: ProgressCallback) -> Iterator[ProgressCallback]:
         del number, frame
         stopped = True
 
-    def told(fraction: float, stage: str) -> bool | None:
+    def callback(fraction: float, stage: str) -> bool | None:
         return False if stopped else progress(fraction, stage)
 
     if threading.current_thread() is not threading.main_thread():
-        yield told
+        yield callback
         return
     before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
-        yield told
+        yield callback
     except Cancelled as error:
         raise KeyboardInterrupt from error
     finally:

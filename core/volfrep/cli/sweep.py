@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..studies.sweep import Swept
 
 #: Sentences on what makes no sense, or failed, that are told.
-_MOST_TOLD = 5
+_MOST_SENTENCES = 5
 
 
 def add_sweep(parser: argparse.ArgumentParser) -> None:
@@ -39,14 +39,14 @@ def _sweep(options: argparse.Namespace) -> None:
     check_files(options, folder=True)
     study = read_study(options.study)
     if options.dry_run:
-        from ..studies.running.executors import told_time
+        from ..studies.running.executors import time_text
         from ..studies.sweep import forecast_study
 
         found, seconds, memory = forecast_study(study)
         _warn("passed over", found.refused)
         print_rows(
             ("designs", f"{len(found.designs):,}" + _twice(found.repeated)),
-            ("one after the other", f"about {told_time(seconds)}, up to {memory:.2g} GB of memory"),
+            ("one after the other", f"about {time_text(seconds)}, up to {memory:.2g} GB of memory"),
         )
         return
     with drawn(options.quiet) as progress:
@@ -85,17 +85,19 @@ def _tell(made: Swept, quiet: bool) -> None:
 
 
 def _warn(what: str, sentences: Mapping[str, int]) -> None:
-    told = sorted(sentences.items(), key=lambda item: -item[1])
-    print_warnings([f"{count:,} {what}: {text}" for text, count in told[:_MOST_TOLD]])
-    if len(told) > _MOST_TOLD:
-        rest = sum(count for _, count in told[_MOST_TOLD:])
+    counted = sorted(sentences.items(), key=lambda item: -item[1])
+    print_warnings([f"{count:,} {what}: {text}" for text, count in counted[:_MOST_SENTENCES]])
+    if len(counted) > _MOST_SENTENCES:
+        rest = sum(count for _, count in counted[_MOST_SENTENCES:])
         print_warnings([f"{rest:,} more {what}, for other reasons: see the page."])
 
 
 def _warn_each(sentences: tuple[str, ...]) -> None:
-    print_warnings(sentences[:_MOST_TOLD])
-    if len(sentences) > _MOST_TOLD:
-        print_warnings([f"{len(sentences) - _MOST_TOLD:,} more records are damaged the same way."])
+    print_warnings(sentences[:_MOST_SENTENCES])
+    if len(sentences) > _MOST_SENTENCES:
+        print_warnings(
+            [f"{len(sentences) - _MOST_SENTENCES:,} more records are damaged the same way."]
+        )
 
 
 def _twice(count: int) -> str:

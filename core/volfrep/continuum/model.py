@@ -33,7 +33,7 @@ from .bricks import AT_ONCE, Bricks, Shares
 from .cell_law import in_cell
 
 #: Elements with less lattice, or less skin, are not told of.
-TOLD = 0.1
+LEAST_SHARE = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,9 +190,9 @@ def _stress(model: ContinuumModel, own: Floats) -> tuple[Floats, Floats]:
     with np.errstate(divide="ignore", invalid="ignore"):
         use = local[:, :3].sum(axis=1) / model.strength[:, 0]
         use = (use + local[:, 3:].sum(axis=1) / model.strength[:, 1]) / limit
-    use = np.where(model.shares.lattice.mean(axis=1) > TOLD, use, 0.0)
+    use = np.where(model.shares.lattice.mean(axis=1) > LEAST_SHARE, use, 0.0)
     law = solid_stiffness(model.material.young, model.material.poisson)
-    some = np.flatnonzero(model.shares.solid.max(axis=1) > TOLD)
+    some = np.flatnonzero(model.shares.solid.max(axis=1) > LEAST_SHARE)
     skin = np.zeros(len(own))
     for table in strains[1:]:
         skin[some] = np.maximum(skin[some], von_mises(own[some] @ table.T @ law))
@@ -207,7 +207,7 @@ def _pressed(model: ContinuumModel, own: Floats) -> Floats | None:
     half = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
     local = in_cell(strain * half, np.broadcast_to(model.frames, (len(own), 3, 3))) / half
     result = np.zeros(len(own))
-    some = np.flatnonzero(model.shares.lattice.mean(axis=1) > TOLD)
+    some = np.flatnonzero(model.shares.lattice.mean(axis=1) > LEAST_SHARE)
     for rows in np.array_split(some, len(some) // AT_ONCE + 1):
         table = model.pressed if len(model.pressed) == 1 else model.pressed[rows]
         result[rows] = (table @ local[rows][:, :, None]).max(axis=(1, 2), initial=0.0)

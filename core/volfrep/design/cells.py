@@ -154,14 +154,14 @@ class _Library(Mapping[str, UnitCell]):
         self._made: dict[str, UnitCell] = {}
 
     @cached_property
-    def _told(self) -> dict[str, tuple[Path, set[str]]]:
+    def _names(self) -> dict[str, tuple[Path, set[str]]]:
         """Of each cell its file, and all its names in lower case."""
-        told = {}
+        names_of = {}
         for path in sorted(_FOLDER.glob("*.json")):
             data = read_json(path, "cell file", MAX_FILE_BYTES)
             names = [data["name"], *data.get("also", [])]
-            told[names[0]] = path, {name.lower() for name in names}
-        return told
+            names_of[names[0]] = path, {name.lower() for name in names}
+        return names_of
 
     @cached_property
     def _order(self) -> list[str]:
@@ -170,7 +170,7 @@ class _Library(Mapping[str, UnitCell]):
         def place(name: str) -> tuple[int, int, str]:
             return uses.index(self[name].use), len(self[name].struts), name
 
-        return sorted(self._told, key=place)
+        return sorted(self._names, key=place)
 
     def __getitem__(self, name: str) -> UnitCell:
         if name not in self._made:
@@ -181,16 +181,16 @@ class _Library(Mapping[str, UnitCell]):
         return iter(self._order)
 
     def __len__(self) -> int:
-        return len(self._told)
+        return len(self._names)
 
     def file(self, name: str) -> Path:
         """The file of the cell of a name."""
-        return self._told[name][0]
+        return self._names[name][0]
 
     def named(self, name: str) -> str | None:
         """The name of the cell that is called so, by whatever of its names; None for none."""
         wanted = name.strip().lower()
-        return next((own for own, (_, names) in self._told.items() if wanted in names), None)
+        return next((own for own, (_, names) in self._names.items() if wanted in names), None)
 
 
 def find_cell(name: str, values: str = "") -> UnitCell:
@@ -302,10 +302,10 @@ def load_cell(path: str | os.PathLike[str], values: str = "") -> UnitCell:
         struts = data["struts"]
     cell = make_cell(name.strip(), nodes, struts, where, edges=edges, widths=widths or ())
     usual = {one.name: one.usual for one in parameters}
-    told = ", ".join(f"{key} = {value!r}" for key, value in chosen.items() if value != usual[key])
+    text = ", ".join(f"{key} = {value!r}" for key, value in chosen.items() if value != usual[key])
     return replace(
         cell, source=str(file), use=use, about=about_text, also=tuple(also),
-        parameters=parameters, values=told,
+        parameters=parameters, values=text,
     )  # fmt: skip
 
 

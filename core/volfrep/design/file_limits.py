@@ -31,12 +31,12 @@ class FileLimits:
         return self.triangles is not None or self.megabytes is not None
 
     def __str__(self) -> str:
-        told = []
+        limits = []
         if self.triangles is not None:
-            told.append(f"{self.triangles:,} triangles")
+            limits.append(f"{self.triangles:,} triangles")
         if self.megabytes is not None:
-            told.append(f"{self.megabytes:g} MB")
-        return " and ".join(told)
+            limits.append(f"{self.megabytes:g} MB")
+        return " and ".join(limits)
 
 
 @dataclass(frozen=True)

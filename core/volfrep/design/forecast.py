@@ -63,8 +63,8 @@ class Forecast:
     def of_axes(self) -> str:
         """Where nothing is meshed: the struts, and no triangles, memory and file of a mesh."""
         counts = {"cells": self.cells, "struts": self.struts}
-        told = (f"{round_off(count)} {what}" for what, count in counts.items() if count)
-        return f"about {', '.join(told)}"
+        parts = (f"{round_off(count)} {what}" for what, count in counts.items() if count)
+        return f"about {', '.join(parts)}"
 
     def __str__(self) -> str:
         return (

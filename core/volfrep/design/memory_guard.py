@@ -115,9 +115,9 @@ def refuse_memory(
         return
     excess = 1.2 * max(needed / free, triangles / most)
     # Where the others are not in memory, those at the wall are what is told.
-    told, where = (triangles, "") if triangles else (in_boolean, " at its wall")
+    number, where = (triangles, "") if triangles else (in_boolean, " at its wall")
     raise VolfrepError(
-        f"This lattice would have about {told / 1e6:.3g} million triangles{where} and "
+        f"This lattice would have about {number / 1e6:.3g} million triangles{where} and "
         f"{_takes(needed, free)}: {_what_fits(spec, excess, count)}."
     )
 

@@ -33,7 +33,7 @@ MAX_TRIANGLES = 200_000
 VOLUME_TOLERANCE = 1e-6
 #: Mending is told where it changes the volume by more than this fraction: beside the thin lip of a
 #: wing small moves take much.
-VOLUME_TOLD = 2e-3
+VOLUME_WARNED = 2e-3
 #: Nodes are on a wall within this part of its box's diagonal: what single precision keeps.
 WALL_TOLERANCE = 1e-6
 #: Gmsh copes with facets that have no angle below this, degrees.
@@ -103,18 +103,18 @@ class TetrahedralMesh:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Sentences where mending changed the volume, and where shapes were not improved."""
-        told = []
-        if abs(self.grown) > VOLUME_TOLD:
-            told.append(
+        warnings = []
+        if abs(self.grown) > VOLUME_WARNED:
+            warnings.append(
                 f"The tetrahedra's volume differs by {self.grown:+.2%} from the mesh's: its "
                 "needles were mended, which takes from thin lips. A finer deviation takes less."
             )
         if not self.improved:
-            told.append(
+            warnings.append(
                 "Gmsh came to no end with improving the tetrahedra, so that this is left out: some "
                 "are flat. Another resolution or origin may do better."
             )
-        return tuple(told)
+        return tuple(warnings)
 
     def volumes(self) -> Floats:
         """(m,) signed volume of each tetrahedron, mm3."""

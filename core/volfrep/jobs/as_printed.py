@@ -46,8 +46,10 @@ class Printed(Shown):
     def rows(self) -> list[tuple[str, str]]:
         """Names and values, for people."""
         both = (("printed", self.diameters), ("drawn", self.drawn))
-        told = [(name, f"{least:.3f} to {most:.3f} mm thick") for name, (least, most) in both]
-        return [("table", self.table.title), *told, ("swelling", f"{self.swelling:.4g}")]
+        thicknesses = [
+            (name, f"{least:.3f} to {most:.3f} mm thick") for name, (least, most) in both
+        ]
+        return [("table", self.table.title), *thicknesses, ("swelling", f"{self.swelling:.4g}")]
 
     def row(self, lattice_mm3: float, volume_mm3: float, density: float) -> tuple[str, str]:
         """A name and a value for the user.
@@ -139,9 +141,9 @@ def printed_radius(
             f"Struts of {drawn.min():.3g} mm do not come out at all ({table.title}): draw thicker "
             "ones."
         )
-    told = f"{out.min():.3f}" if np.ptp(out) < 5e-4 else f"{out.min():.3f} to {out.max():.3f}"
+    text = f"{out.min():.3f}" if np.ptp(out) < 5e-4 else f"{out.min():.3f} to {out.max():.3f}"
     note = (
-        f"Struts that are drawn {drawn.max():.3f} mm thick come out {told} mm thick "
+        f"Struts that are drawn {drawn.max():.3f} mm thick come out {text} mm thick "
         f"({table.title}); told are the properties of {mean:.3f} mm, which take the same volume."
     )
     return mean / 2.0, note
@@ -184,9 +186,9 @@ def compensated(
         )
     thickest = float(drawn.max())
     factors = drawn / thickest
-    told = f"{drawn.min():.3f}" if np.ptp(drawn) < 5e-4 else f"{drawn.min():.3f} to {thickest:.3f}"
+    text = f"{drawn.min():.3f}" if np.ptp(drawn) < 5e-4 else f"{drawn.min():.3f} to {thickest:.3f}"
     note = (
-        f"Struts are drawn {told} mm thick, so that they come out {wanted.min():.3f}"
+        f"Struts are drawn {text} mm thick, so that they come out {wanted.min():.3f}"
         f"{'' if np.ptp(wanted) < 5e-4 else f' to {wanted.max():.3f}'} mm thick ({table.title})."
     )
     if np.ptp(factors) < _SAME:

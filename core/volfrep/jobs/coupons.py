@@ -123,12 +123,12 @@ def make_coupons(
     monitor = Monitor(progress)
     made = []
     for count, kind in enumerate(kinds):
-        with monitor.stage(kind, count / len(kinds), (count + 1) / len(kinds)) as told:
+        with monitor.stage(kind, count / len(kinds), (count + 1) / len(kinds)):
             if kind == "ladder":
                 made.append(_ladder(first + count, diameters, inclinations))
             else:
                 make = {"cube": _cube, "tension": _bar, "bending": _beam}[kind]
-                made.append(make(spec, first + count, cells, told))
+                made.append(make(spec, first + count, cells, monitor))
     return made
 
 

@@ -559,13 +559,13 @@ def homogenised_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
                  f"pinned ends, at ({at}) mm")
             )  # fmt: skip
         if case["load_factors"]:
-            told = ", ".join(
+            text = ", ".join(
                 "none" if value is None else f"{value:.4g}" for value in case["load_factors"]
             )
-            rows.append(("", f"buckles as a whole at so many times the loads: {told}"))
+            rows.append(("", f"buckles as a whole at so many times the loads: {text}"))
     if report["frequencies_hz"]:
-        told = ", ".join(f"{value:.4g}" for value in report["frequencies_hz"])
-        rows.append(("natural frequencies", f"{told} Hz"))
+        text = ", ".join(f"{value:.4g}" for value in report["frequencies_hz"])
+        rows.append(("natural frequencies", f"{text} Hz"))
     rows += [
         (f"heat {one['name']}", f"{one['temperature']:.5g} degrees, gives {one['power_w']:.4g} W")
         for one in report["heat"]

@@ -179,7 +179,7 @@ class Infill:
         struts = kept.without_loose(self.struts)
         made = part_beams(self.solid, self.cavity, struts, self.spec.skin, drains, self.monitor)
         warnings = self._beam_warnings + made.warnings
-        return replace(made, warnings=warnings, loose=kept.told)
+        return replace(made, warnings=warnings, loose=kept.notes)
 
     @cached_property
     def lattice_beams(self) -> BeamModel:
@@ -190,7 +190,7 @@ class Infill:
         if self.spec.ending.is_trimmed:
             clip_at = self.solid if self.spec.skin is None else self.cavity
             struts = reaching_into(struts, clip_at)
-        return BeamModel(struts, clip_at, warnings=self._beam_warnings, loose=kept.told)
+        return BeamModel(struts, clip_at, warnings=self._beam_warnings, loose=kept.notes)
 
     @cached_property
     def axes(self) -> Clipped:

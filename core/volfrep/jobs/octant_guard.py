@@ -21,7 +21,7 @@ from ..util.types import Bools
 
 #: Facets that stray more than so many times as far as asked for are told: 1.5 is what is kept to
 #: inside, and at the corners of blocks it is known to be 2 (docs/limits.md).
-TOLD = 2.25
+DEVIATION_WARNED = 2.25
 
 
 def refuse_before_skin(spec: LatticeSpec, solid: TriangleMesh, *, streamed: bool) -> None:
@@ -129,7 +129,7 @@ def deviation_warnings(
 
     That is known of the octants as they are meshed, before a grading moves them.
     """
-    allowed = TOLD * octant_spec.deviation
+    allowed = DEVIATION_WARNED * octant_spec.deviation
     strays = np.array([octant.stray for octant in octants.values()])
     count, farthest = int((strays > allowed).sum()), float(strays.max(initial=0.0))
     if not count:

@@ -34,7 +34,7 @@ NODES = 200_000
 #: Bands reach so many grid steps beyond the part.
 BEYOND = 1.2
 #: No band that is to hold something is told less, %.
-LEAST_TOLD = 1.0
+LEAST_DENSITY = 1.0
 #: Planes in which the filament is added up, at most.
 MOST_PLANES = 240
 #: Bands' surfaces may move by this part of a grid step to have fewer triangles.
@@ -161,20 +161,20 @@ def cut_bands(
         Cancelled: the callback said so.
     """
     monitor = Monitor(progress)
-    with monitor.stage("field", 0.0, 0.5) as told:
-        grid = _sample(solid, wanted, told)
-    with monitor.stage("bands", 0.5, 0.7) as told:
+    with monitor.stage("field", 0.0, 0.5):
+        grid = _sample(solid, wanted, monitor)
+    with monitor.stage("bands", 0.5, 0.7):
         thresholds = _thresholds(grid, wanted.bands)
-        cut = [(low, _band(grid, low, told)) for low in thresholds]
-    with monitor.stage("filament", 0.7, 1.0) as told:
+        cut = [(low, _band(grid, low, monitor)) for low in thresholds]
+    with monitor.stage("filament", 0.7, 1.0):
         pieces = [piece for _, piece in cut if piece is not None]
-        printed = _add_up(solid, wanted, pieces, told)
+        printed = _add_up(solid, wanted, pieces, monitor)
     means = _means(grid, thresholds, wanted)
     there = [None, *pieces]
     of_band = [0, *(k for k, (_, piece) in enumerate(cut, 1) if piece is not None)]
     bands = tuple(
         Band(
-            means[of_band[k]], _told(means[of_band[k]], volume, border, wanted),
+            means[of_band[k]], _slicer_density(means[of_band[k]], volume, border, wanted),
             volume, None if piece is None else as_mesh(piece),
         )
         for k, (piece, volume, border) in enumerate(
@@ -185,7 +185,7 @@ def cut_bands(
     return SlicerInfill(solid, wanted, bands, printed.solid, material_density)
 
 
-def _told(mean: float, volume: float, border: float, wanted: BandedInfill) -> float:
+def _slicer_density(mean: float, volume: float, border: float, wanted: BandedInfill) -> float:
     """What a slicer is to be told so that it lays as much as a density wants, %, to a tenth.
 
     Args:
@@ -199,7 +199,7 @@ def _told(mean: float, volume: float, border: float, wanted: BandedInfill) -> fl
     bulk, more, joined = LAID[wanted.pattern]
     inside = mean - 100.0 * joined * wanted.spacing * border / volume
     inside /= bulk + more * mean / 100.0
-    return round(min(max(inside, LEAST_TOLD), MOST), 1)
+    return round(min(max(inside, LEAST_DENSITY), MOST), 1)
 
 
 @dataclass(frozen=True, eq=False)

@@ -253,9 +253,9 @@ def _both(coarse: Mapping[str, Any], fine: Mapping[str, Any]) -> dict[str, Any]:
     share = 1.0 / (COARSER**ORDER - 1.0)
     limit = {name: fine[name] + share * (fine[name] - coarse[name]) for name in LIMITS}
     change = max(abs(fine[name] - coarse[name]) / max(abs(fine[name]), 1e-300) for name in LIMITS)
-    told = ("displacement_mm", "compliance_nmm", "stress_mpa", "largest_stress_mpa")
+    names = ("displacement_mm", "compliance_nmm", "stress_mpa", "largest_stress_mpa")
     return {
-        **fine, "coarser": {name: coarse[name] for name in told}, "extrapolated": limit,
+        **fine, "coarser": {name: coarse[name] for name in names}, "extrapolated": limit,
         "changed": change,
     }  # fmt: skip
 
@@ -331,8 +331,8 @@ def solving_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         stress = case["stress_mpa"]
         parts = [f"nominal stress {stress['all']:.4g} MPa on all but {PEAKS:.1%} of the volume"]
         parts += [
-            f"{told} {stress[key]:.4g}"
-            for key, told in (("outside", "next to the outside"), ("thick", "where it is thick"))
+            f"{where} {stress[key]:.4g}"
+            for key, where in (("outside", "next to the outside"), ("thick", "where it is thick"))
             if stress[key] is not None
         ]
         rows.append(("", ", ".join(parts)))

@@ -129,7 +129,7 @@ def homogenise(
     poisson: float = 0.3,
     along: int | None = None,
     density: float | None = None,
-    told: Callable[[float], None] = lambda seconds: None,
+    on_estimate: Callable[[float], None] = lambda seconds: None,
 ) -> Homogenised:
     """The elastic tensor, extrapolated from three grids.
 
@@ -140,7 +140,8 @@ def homogenise(
         poisson: the solid's ratio.
         along: voxels along L on the finest grid; None for as many as the radius asks for.
         density: the exact relative density, which every grid is filled to; None: as it comes.
-        told: given how many seconds the rest will take, about, once the coarsest grid is solved.
+        on_estimate: given how many seconds the rest will take, about, once the coarsest grid is
+            solved.
 
     Raises:
         VolfrepError: the cell does not hang together, or is no cube with struts of one radius.
@@ -154,7 +155,12 @@ def homogenise(
         return voxels_of(endless, radius, fillet, size, octant=octant, density=density)
 
     return homogenise_voxels(
-        voxels, sizes, poisson, cubic=octant and is_cubic(cell), name=cell.name, told=told
+        voxels,
+        sizes,
+        poisson,
+        cubic=octant and is_cubic(cell),
+        name=cell.name,
+        on_estimate=on_estimate,
     )
 
 
@@ -165,7 +171,7 @@ def homogenise_voxels(
     *,
     cubic: bool,
     name: str,
-    told: Callable[[float], None] = lambda seconds: None,
+    on_estimate: Callable[[float], None] = lambda seconds: None,
 ) -> Homogenised:
     """The elastic tensor of whatever is made of voxels.
 
@@ -175,7 +181,7 @@ def homogenise_voxels(
         poisson: the solid's ratio.
         cubic: whether three constants say all of the tensor.
         name: of the cell, for the sentences.
-        told: as of `homogenise`.
+        on_estimate: as of `homogenise`.
 
     Raises:
         VolfrepError: the solid does not hang together.
@@ -183,7 +189,7 @@ def homogenise_voxels(
     start = time.perf_counter()
     grids = [solve_grid(voxels(sizes[0]), poisson, cubic=cubic)]
     took = time.perf_counter() - start
-    told(took * sum((size / sizes[0]) ** COST for size in sizes[1:]))
+    on_estimate(took * sum((size / sizes[0]) ** COST for size in sizes[1:]))
     grids += [solve_grid(voxels(size), poisson, cubic=cubic) for size in sizes[1:]]
     found = np.array([grid.tensor for grid in grids])
     _refuse_loose(found[-1], name)

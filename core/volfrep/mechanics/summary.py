@@ -186,8 +186,8 @@ class CellProperties(Shown):
                 rows += [(f"strength along {axis}", self._strength_along(axis)) for axis in "xyz"]
             else:  # the catalogue keeps the least of them
                 is_none = self.values["strength"] <= _CARRIES
-                told = _NOTHING if is_none else self._told_strength("strength")
-                rows.append(("least strength along x, y, z", told))
+                text = _NOTHING if is_none else self._strength_text("strength")
+                rows.append(("least strength along x, y, z", text))
         least = _CARRIES * float(np.abs(self.stiffness).max())
         for name in names:
             value, error = self.values[name], self.errors[name]
@@ -195,7 +195,7 @@ class CellProperties(Shown):
             if name in MODULI:
                 text = f"{text} {unit}" if value > least else _NOTHING
             elif "strength" in name:
-                text = self._told_strength(name)
+                text = self._strength_text(name)
             elif name == "conductivity":
                 text += " of the solid's"
             rows.append((CALLED.get(name, name.replace("_", " ")), text))
@@ -206,7 +206,7 @@ class CellProperties(Shown):
         """Whether strengths are in MPa."""
         return self.material is not None and self.material.yield_stress is not None
 
-    def _told_strength(self, name: str) -> str:
+    def _strength_text(self, name: str) -> str:
         unit = "MPa" if self._yields else "of the solid's yield stress"
         return f"{_with_error(self.values[name], self.errors[name])} {unit}"
 
@@ -262,7 +262,7 @@ def cell_properties(
     fillet: float = 0.0,
     material: str | SolidMaterial | None = None,
     along: int | None = None,
-    told: Callable[[float], None] = lambda seconds: None,
+    on_estimate: Callable[[float], None] = lambda seconds: None,
 ) -> CellProperties:
     """What the endless lattice of a cell of struts does.
 
@@ -274,7 +274,7 @@ def cell_properties(
         fillet: radius of the round between struts, mm.
         material: the solid, by name, file or itself; None: figures in units of the solid's.
         along: voxels along L of the finest of three grids; None for what the radius asks for.
-        told: given how many seconds are left, about, as soon as that is known.
+        on_estimate: given how many seconds are left, about, as soon as that is known.
 
     Raises:
         VolfrepError: a value makes no sense, the cell carries no load, or it has too many struts.
@@ -296,7 +296,7 @@ def cell_properties(
         assert relative_density is not None
         strut_radius = size * radius_of_density(unit_cell, float(relative_density), fillet / size)
     _check(size, strut_radius, fillet)
-    return _summary(unit_cell, size, float(strut_radius), float(fillet), solid, along, told)
+    return _summary(unit_cell, size, float(strut_radius), float(fillet), solid, along, on_estimate)
 
 
 def _check(size: float, radius: float, fillet: float) -> None:
@@ -329,7 +329,7 @@ def _summary(
     fillet: float,
     solid: SolidMaterial | None,
     along: int | None,
-    told: Callable[[float], None],
+    on_estimate: Callable[[float], None],
 ) -> CellProperties:
     poisson = POISSON if solid is None else solid.poisson
     density = relative_density(cell, radius / size, fillet / size)
@@ -340,7 +340,7 @@ def _summary(
         poisson=poisson,
         along=along,
         density=density.value,
-        told=told,
+        on_estimate=on_estimate,
     )
     whole = figures_of(found, solid)
     whole.errors["relative_density"] = density.error

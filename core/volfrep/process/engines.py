@@ -146,7 +146,7 @@ class Running:
                 if self._cancels:
                     raise Cancelled("cancelled before it began")
                 self._process = process
-            return process.answer(self._call, self._told)
+            return process.answer(self._call, self._take_progress)
         except WorkerLost as lost:
             if self._cancels:
                 raise Cancelled("its process was ended") from lost
@@ -161,7 +161,7 @@ class Running:
             if self._process is process:
                 process.kill()
 
-    def _told(self, fraction: float, stage: str) -> None:
+    def _take_progress(self, fraction: float, stage: str) -> None:
         self.state = fraction, stage
 
     def _tick(self, fraction: float, stage: str) -> bool:

@@ -74,8 +74,8 @@ class Call:
     def here(self, progress: ProgressCallback | None = None) -> Any:
         """Make it in this process."""
         assert callable(self.function)
-        told = {"progress": progress} if self.has_progress else {}
-        return self.function(*self.arguments, **self.keywords, **self.heard, **told)
+        progress_keyword = {"progress": progress} if self.has_progress else {}
+        return self.function(*self.arguments, **self.keywords, **self.heard, **progress_keyword)
 
 
 class Failed(Exception):
@@ -190,7 +190,7 @@ class Worker:
     def answer(
         self,
         call: Call,
-        told: ProgressCallback = lambda fraction, stage: None,
+        callback: ProgressCallback = lambda fraction, stage: None,
         limits: Limits = NO_LIMITS,
         ask: Callable[[], object] | None = None,
     ) -> Any:
@@ -198,7 +198,7 @@ class Worker:
 
         Args:
             call: the function and what it is given.
-            told: hears of the progress; what it returns is not looked at.
+            callback: hears of the progress; what it returns is not looked at.
             limits: of the call's time, and of the process's memory.
             ask: called again and again on this thread; what it raises ends the process.
 
@@ -207,13 +207,13 @@ class Worker:
             OverLimit: it has been ended for a limit.
             BaseException: what the call has raised, with the other side's traceback as its cause.
         """
-        kind, value = self._child.guarded(lambda: self._exchange(call, told), limits, ask)
+        kind, value = self._child.guarded(lambda: self._exchange(call, callback), limits, ask)
         if kind == "failed":
             error, trace = value
             raise error from Failed(f"\n{trace}")
         return value
 
-    def _exchange(self, call: Call, told: ProgressCallback) -> tuple[str, Any]:
+    def _exchange(self, call: Call, callback: ProgressCallback) -> tuple[str, Any]:
         """Send a call, and listen until it has ended; how, and with what."""
         self._number += 1
         if not self.greets() or not self._send((None, self._number, _Sent.of(call))):
@@ -226,7 +226,7 @@ class Worker:
             if about not in (self._number, UNKNOWN):
                 continue
             if kind == "progress":
-                told(*value)
+                callback(*value)
             elif kind == "heard":
                 call.heard[value[0]](*value[1])
             else:

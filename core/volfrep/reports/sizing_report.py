@@ -121,8 +121,8 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     ]
     if "as_printed" in report:
         thin, thick = report["as_printed"]["diameters_mm"]
-        told = f"this mass and all that follows is of struts {thin:.3g} to {thick:.3g} mm thick"
-        rows.append(("as printed", f"{told} ({report['as_printed']['table']})"))
+        value = f"this mass and all that follows is of struts {thin:.3g} to {thick:.3g} mm thick"
+        rows.append(("as printed", f"{value} ({report['as_printed']['table']})"))
     if report["skin_mass_g"]:
         rows.append(("skin mass", f"{report['skin_mass_g']:.4g} g"))
     if "radius_list" in report:
@@ -171,13 +171,13 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
             )
         )
     same = report["same_mass"]
-    told = f"one radius of {same['radius_mm']:.3g} mm"
+    value = f"one radius of {same['radius_mm']:.3g} mm"
     if same["stiffer"]:
-        told = (
+        value = (
             f"{min(same['stiffer_at_least']):.2f} to {min(same['stiffer']):.2f} times as stiff as "
-            f"{told} (beams say the most, solids may say the least)"
+            f"{value} (beams say the most, solids may say the least)"
         )
-    rows.append(("same mass", f"{told}, {_share_of_stress(same['less_stress'])}"))
+    rows.append(("same mass", f"{value}, {_share_of_stress(same['less_stress'])}"))
     if "same_limits" in report:
         even = report["same_limits"]
         what = "holds the same limits" if even["holds"] else "does not even hold the limits"
@@ -191,8 +191,8 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     if "skin_stress_mpa" in report:
         most = max(report["skin_stress_mpa"])
         stress = (proof or {}).get("skin_stress_mpa")
-        told = f", {max(stress):.4g} MPa in CalculiX" if stress else ""
-        rows.append(("skin stress", f"{most:.4g} MPa on all but {PEAKS:.1%} of its area{told}"))
+        value = f", {max(stress):.4g} MPa in CalculiX" if stress else ""
+        rows.append(("skin stress", f"{most:.4g} MPa on all but {PEAKS:.1%} of its area{value}"))
     if "skin" in report:
         skin, held = report["skin"], report["skin"]["there_over_asked"]
         low, high = skin["thickness_mm"]

@@ -482,8 +482,8 @@ class CrossingWatch:
         part = compact(TriangleMesh(vertices, self._triangles[some]))
         close = pairs_among(part, self._step, number[chosen])
         found = []
-        for told in (part.vertices, rounded(part.vertices, self._step)):
-            single = told.astype(np.float32).astype(np.float64)
+        for version in (part.vertices, rounded(part.vertices, self._step)):
+            single = version.astype(np.float32).astype(np.float64)
             found.append(piercing_among(TriangleMesh(single, part.triangles), close))
         result: Ints = np.unique(some[np.concatenate(found)], axis=0)
         return result

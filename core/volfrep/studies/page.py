@@ -173,10 +173,10 @@ def _cards(
             spec = str(folder / row["size.file"])
             sized = ["-o", f"{key}_sized{study.export}", "--spec", spec]
             commands.append(shlex.join(["volfrep", "fill", _source(design), *sized]))
-        told = "".join(f"<pre>{_text(command)}</pre>" for command in commands)
+        listing = "".join(f"<pre>{_text(command)}</pre>" for command in commands)
         parts.append(
             f'<div class="card" id="{key}">{_picture(folder, row)}<h3>{key}</h3>'
-            f"<table>{lines}</table>{told}</div>"
+            f"<table>{lines}</table>{listing}</div>"
         )
     return [*parts, "</div>"]
 

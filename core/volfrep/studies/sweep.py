@@ -33,7 +33,7 @@ from .expectation import plan
 from .page import write_page
 from .records import damage_of, keep_part, prepare, read_record, record_path
 from .running.batches import limits_of_a_run
-from .running.executors import Words, told_state
+from .running.executors import Words, state_text
 from .running.scheduling import How, Job, weight
 from .study import Front, Study, read_study
 from .table import DONE, FAILED, OPEN, Table, table_of, write_csv, write_parquet
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     import pandas
 
 #: The files at the top of a study's folder: tables, and the page.
-TOLD = ("runs.csv", "runs.parquet", "index.html")
+WRITTEN = ("runs.csv", "runs.parquet", "index.html")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -72,8 +72,8 @@ class Swept(Shown):
     def rows(self) -> list[tuple[str, str]]:
         """Names and values, for people."""
         states = ((state, self.count(state)) for state in (DONE, FAILED, OPEN))
-        told = [(state, str(count)) for state, count in states if count]
-        return [*told, ("on the front", str(len(self.front))), ("page", str(self.page))]
+        rows = [(state, str(count)) for state, count in states if count]
+        return [*rows, ("on the front", str(len(self.front))), ("page", str(self.page))]
 
     def count(self, state: str) -> int:
         """Designs in a state: ``done``, ``failed`` or ``open``."""
@@ -101,7 +101,7 @@ def sweep(
     retry_failed: bool = False,
     progress: ProgressCallback | bool | None = None,
     interpreter: Program | None = None,
-    words: Words = told_state,
+    words: Words = state_text,
 ) -> Swept:
     """Make many designs, and a table of them, a page to look at, and their Pareto front.
 
@@ -136,9 +136,9 @@ def sweep(
     check_kind("study", study, (Study, str, os.PathLike), "a Study, or the path of its file")
     limits = limits_of_a_run(limit_hours, limit_memory)
     how = How(workers, executor, scheduler, shard, limits, retry_failed, interpreter, words)
-    with keeping_inputs(), shown(progress) as told:
+    with keeping_inputs(), shown(progress) as callback:
         study = study if isinstance(study, Study) else read_study(study)
-        return _swept(study, folder, how, told)
+        return _swept(study, folder, how, callback)
 
 
 def _swept(
@@ -148,7 +148,7 @@ def _swept(
     found = designs_of(study, parts)
     if not found.designs:
         raise VolfrepError(_nothing_left(found))
-    for name in TOLD:  # before any work; what else is in the way is found as it is written
+    for name in WRITTEN:  # before any work; what else is in the way is found as it is written
         check_writable(at / name)
     job = Job(at, asked, how, progress)
     mine = found.designs[how.shard[0] - 1 :: how.shard[1]]
@@ -160,7 +160,9 @@ def _swept(
         if study.front.do and front:
             best = [design for design in mine if design.key in front]
             runs |= job.do(best, study.all_actions)
-    return replace(_told(study, at, found, front, len(runs)), damaged=tuple(filter(None, damaged)))
+    return replace(
+        _summarise(study, at, found, front, len(runs)), damaged=tuple(filter(None, damaged))
+    )
 
 
 def evaluate(
@@ -218,8 +220,8 @@ def evaluate(
         except VolfrepError as error:
             made.append(str(error))
     sound = {one.key: one for one in made if isinstance(one, Design)}
-    with shown(progress) as told:
-        job = Job(at, asked, How(workers, executor, scheduler), told)
+    with shown(progress) as callback:
+        job = Job(at, asked, How(workers, executor, scheduler), callback)
         job.do(tuple(sound.values()), tuple(study.do))
     return [_figures(at, one, tuple(study.do)) for one in made]
 
@@ -248,7 +250,7 @@ def _begun(study: Study, folder: str | os.PathLike[str]) -> tuple[Path, tuple[Pa
     check_path("folder", folder)
     at = Path(folder).resolve()
     read = [read_part(given, study.unit) for given in study.parts]
-    for name in TOLD:
+    for name in WRITTEN:
         refuse_input(at / name)
     prepare(at)
     parts = []
@@ -324,13 +326,15 @@ def losses(table: Table, front: Front) -> Floats:
     return np.array(columns, float).T
 
 
-def _told(study: Study, folder: Path, found: Designs, front: Mapping[str, int], runs: int) -> Swept:
+def _summarise(
+    study: Study, folder: Path, found: Designs, front: Mapping[str, int], runs: int
+) -> Swept:
     """Write table and page of what is known now."""
     records = [read_record(folder, design.key) for design in found.designs]
     table = table_of(found.designs, records, study.all_actions, front, tuple(study.do))
-    write_csv(table, folder / TOLD[0])
-    write_parquet(table, folder / TOLD[1])
-    page = folder / TOLD[2]
+    write_csv(table, folder / WRITTEN[0])
+    write_parquet(table, folder / WRITTEN[1])
+    page = folder / WRITTEN[2]
     write_page(page, study, found, table, front)
     return Swept(table, front, found.refused, found.repeated, runs, page)
 

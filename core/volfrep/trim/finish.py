@@ -129,13 +129,13 @@ def finish(
         surface = changed
         quality = _quality_after(before, surface, quality, least, monitor)
     refuse_no_solid(quality)
-    told = () if place is None else (_touching(place),)
+    notes = () if place is None else (_touching(place),)
     if not moved:
-        return surface, quality, told
+        return surface, quality, notes
     met = monitor.call(lambda: surface.met_by(Lines(surface.bounds)))
     share = met.odd / quality.volume
     if met.place is None or share <= ROUNDING:
-        return surface, quality, told
+        return surface, quality, notes
     x, y, z = met.place
     where = (
         f"There is so little room about ({x:.4g}, {y:.4g}, {z:.4g}) that facets run through each "
@@ -144,7 +144,7 @@ def finish(
     advice = "make it thinner or let the cells be larger there"
     if share > MOST_CROSSED:
         raise VolfrepError(f"{where}, {advice}.")
-    return surface, quality, (*told, f"{where}; {advice} if that matters.")
+    return surface, quality, (*notes, f"{where}; {advice} if that matters.")
 
 
 def _quality_after(

@@ -74,7 +74,7 @@ class KeptStruts:
         return np.asarray(stays | (outside & joined[lattice.struts].any(axis=1)))
 
     @property
-    def told(self) -> tuple[str, ...]:
+    def notes(self) -> tuple[str, ...]:
         """A sentence on the struts that were left out."""
         if not self.loose:
             return ()
@@ -152,10 +152,10 @@ def axes_of(
         owner = np.flatnonzero(kept.whole(lattice))
         clipped = Clipped(
             frame, np.zeros(len(frame.nodes), bool), owner, np.zeros(len(owner)),
-            np.ones(len(owner)), kept.told,
+            np.ones(len(owner)), kept.notes,
         )  # fmt: skip
     else:
-        clipped = replace(clip(lattice, wall, kept.left), warnings=kept.told)
+        clipped = replace(clip(lattice, wall, kept.left), warnings=kept.notes)
         if openings is not None:
             frame = clipped.wireframe
             free = lie_on(openings, frame.nodes, AT_WALL * frame.joint_radii)
@@ -200,11 +200,11 @@ def _with_joints(clipped: Clipped, bodies: int) -> Clipped:
             f"As beams {left} would hang on nothing, though the mesh is one body: choose "
             "tetrahedra or the mesh, smaller cells, or another origin."
         )
-    told = (f"{left} hang on the others by too little for beams, and are left out.",)
+    note = (f"{left} hang on the others by too little for beams, and are left out.",)
     used = np.unique(frame.struts[stays])
     return Clipped(
         select_struts(frame, stays), clipped.on_wall[used], clipped.owner[stays],
-        clipped.low[stays], clipped.high[stays], clipped.warnings + told,
+        clipped.low[stays], clipped.high[stays], clipped.warnings + note,
     )  # fmt: skip
 
 

@@ -70,8 +70,8 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
             f"The {name} must be a whole number from {least} to {most}, not {brief(value)}."
         )
     if not least <= value <= most or value != int(value):
-        told = f"{value:.6g}" if abs(value) < 1e300 else "beyond 1e300"
-        raise VolfrepError(f"The {name} must be a whole number from {least} to {most}, not {told}.")
+        text = f"{value:.6g}" if abs(value) < 1e300 else "beyond 1e300"
+        raise VolfrepError(f"The {name} must be a whole number from {least} to {most}, not {text}.")
     return int(value)
 
 

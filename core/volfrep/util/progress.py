@@ -118,10 +118,10 @@ def peak_memory_mb() -> float:
         # bits, of which the first is the peak of the working set. -1 is this process.
         counters = (ctypes.c_uint64 * 9)()
         ctypes.cast(counters, ctypes.POINTER(ctypes.c_uint32))[0] = ctypes.sizeof(counters)
-        told = ctypes.windll.kernel32.K32GetProcessMemoryInfo(
+        is_known = ctypes.windll.kernel32.K32GetProcessMemoryInfo(
             ctypes.c_void_p(-1), ctypes.byref(counters), ctypes.sizeof(counters)
         )
-        return float(counters[1]) / 2**20 if told else 0.0
+        return float(counters[1]) / 2**20 if is_known else 0.0
     try:
         import resource
     except ImportError:

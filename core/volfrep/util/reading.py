@@ -143,13 +143,13 @@ def _size(path: Path, what: str, most: int) -> int:
         raise _unread(path, what, "permission denied")
     if status.st_size > most:
         raise VolfrepError(
-            f"The {what} '{path}' has {_told(status.st_size)}, and at most {_told(most)} are read: "
-            "give a smaller one."
+            f"The {what} '{path}' has {_size_text(status.st_size)}, and at most {_size_text(most)} "
+            "are read: give a smaller one."
         )
     return status.st_size
 
 
-def _told(size: int) -> str:
+def _size_text(size: int) -> str:
     return f"{size:,} bytes" if size < 10_000_000 else f"{size / 1e6:,.0f} MB"
 
 

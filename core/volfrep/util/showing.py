@@ -25,9 +25,9 @@ class Shown:
         raise NotImplementedError
 
     def __repr__(self) -> str:
-        told = "; ".join(f"{name} {value}".strip() for name, value in self.rows())
-        told = told if len(told) <= WIDTH else f"{told[: WIDTH - 3]}..."
-        return f"<{type(self).__name__}: {told}>"
+        text = "; ".join(f"{name} {value}".strip() for name, value in self.rows())
+        text = text if len(text) <= WIDTH else f"{text[: WIDTH - 3]}..."
+        return f"<{type(self).__name__}: {text}>"
 
     def _repr_html_(self) -> str:
         """A table for a notebook."""

@@ -14,7 +14,7 @@ from .errors import VolfrepError
 S = TypeVar("S")
 T = TypeVar("T")
 
-_told = 0
+_wanted = 0
 
 
 def use_threads(count: int) -> None:
@@ -26,17 +26,17 @@ def use_threads(count: int) -> None:
     Raises:
         VolfrepError: the number is negative.
     """
-    global _told
+    global _wanted
     if count < 0:
         raise VolfrepError(
             f"There cannot be {count} threads: give 0 for one on each core, or more."
         )
-    _told = count
+    _wanted = count
 
 
 def threads() -> int:
     """How many threads a parallel loop is to use."""
-    return _told or _cores()
+    return _wanted or _cores()
 
 
 def in_threads(work: Callable[[S], T], items: Iterable[S]) -> Generator[T, None, None]:

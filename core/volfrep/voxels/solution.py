@@ -27,7 +27,7 @@ from .shares import VoxelGrid, voxel_grid
 #: Voxels that are less full count as empty: together they were below 0.1 % of every part.
 LEAST = 0.01
 #: Stress is told of voxels at least so full.
-TOLD = 0.5
+LEAST_FILLED = 0.5
 #: A place is thick where so many voxels lie between it and its surfaces, or nearly.
 DEEP = 2.0
 #: Voxels that count as the outside, from it inwards.
@@ -181,7 +181,7 @@ def stresses(model: VoxelModel, displacements: Floats) -> Floats:
 
 def thick_places(model: VoxelModel) -> Bools:
     """(e,) the voxels of places that are at least four voxels thick."""
-    solid = np.pad(model.grid.shares >= TOLD, 1)
+    solid = np.pad(model.grid.shares >= LEAST_FILLED, 1)
     deep = ndimage.distance_transform_edt(solid) >= DEEP
     near = ndimage.distance_transform_edt(~deep) <= DEEP if deep.any() else deep
     return np.asarray(near[1:-1, 1:-1, 1:-1][tuple(model.elements.place.T)])
@@ -201,11 +201,11 @@ def figures_of(model: VoxelModel, state: VoxelState) -> dict[str, Any]:
     case, displacements = state.case, state.displacements
     size = np.linalg.norm(displacements, axis=1)
     most = int(size.argmax())
-    told = model.shares >= TOLD
+    filled = model.shares >= LEAST_FILLED
     edge, low = model.grid.edge, model.grid.low
-    worst = int(np.argmax(np.where(told, state.stress, 0.0)))
-    places = {"all": told, "outside": told & outer_places(model)}
-    places["thick"] = told & thick_places(model)
+    worst = int(np.argmax(np.where(filled, state.stress, 0.0)))
+    places = {"all": filled, "outside": filled & outer_places(model)}
+    places["thick"] = filled & thick_places(model)
     applied = np.concatenate(resultant(model.nodes, case.loads))
     back = np.concatenate(resultant(model.nodes, state.reactions))
     return {

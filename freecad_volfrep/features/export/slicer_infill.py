@@ -317,8 +317,8 @@ def bands_of(obj: App.DocumentObject) -> Bands:
         raise VolfrepError(f"'{obj.Label}' has no bands yet: recompute it first.")
     figures = zip(obj.BandDensities, obj.ToldDensities, obj.BandVolumes, strict=True)
     bands = [
-        Band(mean, told, volume, None if k == 0 else pieces[k])
-        for k, (mean, told, volume) in enumerate(figures)
+        Band(mean, slicer_density, volume, None if k == 0 else pieces[k])
+        for k, (mean, slicer_density, volume) in enumerate(figures)
     ]
     density = find_material(obj.Filament).density
     return Bands(pieces[0], wanted_of(obj), tuple(bands), obj.SolidVolume.Value, density)

@@ -300,8 +300,8 @@ class LatticeInfill:
         elif isinstance(error, MemoryError):
             message = "Not enough memory: choose larger cells or a coarser deviation."
         else:  # whatever it is, the user gets a sentence and keeps the mesh
-            told = "".join(traceback.format_exception(None, error, error.__traceback__))
-            App.Console.PrintLog(f"VOLFREP, {obj.Label}:\n{told}\n")
+            text = "".join(traceback.format_exception(None, error, error.__traceback__))
+            App.Console.PrintLog(f"VOLFREP, {obj.Label}:\n{text}\n")
             message = (
                 f"The engine failed with a {type(error).__name__} ({error}), which is a defect of "
                 "VOLFREP: please report it with the traceback in the report view's log messages."

@@ -43,7 +43,7 @@ def print_rows(obj: App.DocumentObject, shown: Shown) -> list[Row]:
     name = process_of(obj)
     process = None if name is None else find_process(name)
     lines = shown.preview
-    told = print_forecast(
+    forecast = print_forecast(
         lines.spec,
         (lines.start, lines.end, lines.radii),
         (shown.solid.volume, lines.volume),
@@ -51,16 +51,18 @@ def print_rows(obj: App.DocumentObject, shown: Shown) -> list[Row]:
         tuple(obj.BuildDirection),
     )
     rows = []
-    if told.thinnest_strut_mm is not None:
+    if forecast.thinnest_strut_mm is not None:
         thinnest = translate("VolfrepFigures", "thinnest strut")
         least = process and process.strut
-        rows.append(_against(thinnest, told.thinnest_strut_mm, least, is_least=True))
+        rows.append(_against(thinnest, forecast.thinnest_strut_mm, least, is_least=True))
     gap = translate("VolfrepFigures", "narrowest gap")
-    if told.narrowest_gap_mm is not None:
-        rows.append(_against(gap, told.narrowest_gap_mm, process and process.gap, is_least=True))
+    if forecast.narrowest_gap_mm is not None:
+        rows.append(
+            _against(gap, forecast.narrowest_gap_mm, process and process.gap, is_least=True)
+        )
     elif not lines.spec.kind.has_struts:
         pass  # gaps are those between struts
-    elif told.is_gap_known:
+    elif forecast.is_gap_known:
         wide = figure(WIDEST_GAP * lines.spec.cell_size)
         rows.append(Row(gap, translate("VolfrepFigures", "over {width} mm").format(width=wide)))
     else:
@@ -71,22 +73,22 @@ def print_rows(obj: App.DocumentObject, shown: Shown) -> list[Row]:
                 translate("VolfrepFigures", "struts below {angle}\u00b0").format(
                     angle=figure(process.inclination)
                 ),
-                f"{figure(100 * told.overhanging_share)} %",
-                told.overhanging_share < _HARDLY,
+                f"{figure(100 * forecast.overhanging_share)} %",
+                forecast.overhanging_share < _HARDLY,
             )
         )
-    if told.longest_flat_mm > 0.0:
+    if forecast.longest_flat_mm > 0.0:
         rows.append(
             _against(
                 translate("VolfrepFigures", "longest flat strut"),
-                told.longest_flat_mm,
+                forecast.longest_flat_mm,
                 process and process.bridge,
                 is_least=False,
             )
         )
-    rows.append(_held(obj, shown, told.void_mm3, process))
-    mass = mass_of(obj) if shown.is_made else told.mass_g
-    saved = told.saved_g + told.mass_g - mass
+    rows.append(_held(obj, shown, forecast.void_mm3, process))
+    mass = mass_of(obj) if shown.is_made else forecast.mass_g
+    saved = forecast.saved_g + forecast.mass_g - mass
     rows.append(
         Row(
             translate("VolfrepFigures", "saved against the solid"),

@@ -194,8 +194,8 @@ class Outcome:
             ]
             if np.isfinite(sized.factors[k]):
                 together = (a.factors[k] for _, a in columns)
-                told = (float(one) if np.isfinite(one) else "-" for one in together)
-                rows.append(("load before struts buckle together, times", *told))
+                factors = (float(one) if np.isfinite(one) else "-" for one in together)
+                rows.append(("load before struts buckle together, times", *factors))
             worst = int(np.argmax(state.stress.max(axis=1)))
             place = "{:.4g}, {:.4g}, {:.4g}".format(*state.ends[worst].mean(axis=0))
             rows.append(("most stressed strut, at x, y, z", place))
@@ -327,7 +327,7 @@ def size_struts(
     obj: App.DocumentObject,
     analyses: Sequence[App.DocumentObject],
     numbers: Mapping[str, float],
-    told: Callable[[tuple[str, ...]], None] | None = None,
+    on_step: Callable[[tuple[str, ...]], None] | None = None,
     *,
     goal: str = "mass",
     prove: bool = True,
@@ -342,7 +342,7 @@ def size_struts(
         analyses: of the FEM workbench, the load cases.
         numbers: by the names of `volfrep.jobs.sizing.GOALS`; 0 is none. Limits say nothing for
             the most stiffness, a mass nothing for the least.
-        told: called on another thread with each step's row of the table of steps.
+        on_step: called on another thread with each step's row of the table of steps.
         goal: one of `GOALS`.
         prove: let CalculiX solve the design, where it is installed.
         remove_thin: take away struts that end as thin as they may be and carry little.
@@ -371,8 +371,8 @@ def size_struts(
 
     def watch(number: int, step: Step) -> bool:
         steps.append(_row(number, step, density))
-        if told is not None:
-            told(steps[-1])
+        if on_step is not None:
+            on_step(steps[-1])
         return True
 
     part = run_job(

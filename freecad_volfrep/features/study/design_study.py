@@ -321,7 +321,7 @@ def run_study(obj: App.DocumentObject) -> bool:
     """
     require_engine()
     from volfrep.process.worker import Call
-    from volfrep.studies.running.executors import told_state
+    from volfrep.studies.running.executors import state_text
     from volfrep.studies.sweep import sweep
 
     study, folder = study_of(obj), _folder(obj)
@@ -337,7 +337,7 @@ def run_study(obj: App.DocumentObject) -> bool:
                 {
                     "workers": 1 if python is None else None,
                     "interpreter": python,
-                    "words": partial(told_state, text=_words()),
+                    "words": partial(state_text, text=_words()),
                 },
             ),
         )
@@ -448,7 +448,7 @@ def _python(executable: str, folders: tuple[str, ...]) -> Program | None:
 
 
 def _words() -> str:
-    """How far a study is, for the window, as `told_state` takes it."""
+    """How far a study is, for the window, as `state_text` takes it."""
     return str(translate("VolfrepProgress", "{done} of {runs} runs, about {time} left"))
 
 

@@ -217,8 +217,8 @@ class ColourDock(ObjectDock):
     def _show_case(self) -> None:
         assert isinstance(self._colours, StrutColours)
         factor = self._colours.show_case(self._case.currentIndex(), self._deformed.isChecked())
-        told = translate("VolfrepColours", "{factor:g} times enlarged")
-        self._factor.setText("" if factor is None else told.format(factor=factor))
+        text = translate("VolfrepColours", "{factor:g} times enlarged")
+        self._factor.setText("" if factor is None else text.format(factor=factor))
 
     def _set_range(self, low: float, high: float) -> None:
         self._colours.set_range(low, high)

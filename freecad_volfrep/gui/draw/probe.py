@@ -20,18 +20,18 @@ class Probe:
     Args:
         view: a 3D view of FreeCAD.
         shapes: the nodes that may be picked now, what moves and cuts them before them.
-        told: called with the point in front, in the coordinates of the shapes (mm), or None.
+        hover: called with the point in front, in the coordinates of the shapes (mm), or None.
     """
 
     def __init__(
         self,
         view: Any,
         shapes: Callable[[], list[Any]],
-        told: Callable[[tuple[float, float, float] | None], None],
+        hover: Callable[[tuple[float, float, float] | None], None],
     ) -> None:
         from pivy import coin
 
-        self._view, self._shapes, self._told = view, shapes, told
+        self._view, self._shapes, self._hover = view, shapes, hover
         self._place = (0, 0)
         self._timer = QtCore.QTimer()
         self._timer.setSingleShot(True)
@@ -51,7 +51,7 @@ class Probe:
         self._timer.start(RESTS)
 
     def _look(self) -> None:
-        self._told(picked(self._view, self._shapes(), self._place))
+        self._hover(picked(self._view, self._shapes(), self._place))
 
 
 def picked(

@@ -494,11 +494,11 @@ class TaskPanel:
 
     def _say(self, text: str, wrong: bool = False) -> None:
         """A sentence or figures; what is wrong stands below the field that changed last."""
-        is_told, text = False, localise(text)
+        is_marked, text = False, localise(text)
         for _, rows, _ in self._boxes:
-            is_told = rows.tell(self._last if wrong else "", text) or is_told
+            is_marked = rows.tell(self._last if wrong else "", text) or is_marked
         self._figures.setStyleSheet(WRONG if wrong else "")
-        self._figures.setText("" if is_told else text)
+        self._figures.setText("" if is_marked else text)
         keep_height(self._figures, FIGURES)
 
     def _close(self) -> None:

@@ -334,16 +334,16 @@ class SlicerPanel:
         )
         lines = ["".join(f"<th align='right'>{word}&nbsp;</th>" for word in head)]
         rows = zip(obj.BandDensities, obj.ToldDensities, obj.BandVolumes, strict=True)
-        for number, ((mean, told, volume), colour) in enumerate(
+        for number, ((mean, slicer_density, volume), colour) in enumerate(
             zip(rows, colours_of(len(obj.BandDensities)), strict=True), 1
         ):
             red, green, blue = (round(255 * part) for part in colour)
             swatch = f"<span style='color: rgb({red},{green},{blue})'>&#9632;</span> {number}"
             held = f"{grouped(round(volume))}\u00a0mm\u00b3"
-            cells = (swatch, f"{mean:.1f} %", f"{told:.1f} %", held)
+            cells = (swatch, f"{mean:.1f} %", f"{slicer_density:.1f} %", held)
             lines.append("".join(f"<td align='right'>{cell}&nbsp;</td>" for cell in cells))
         table = "".join(f"<tr>{line}</tr>" for line in lines)
-        told = translate(
+        note = translate(
             "VolfrepSlicer",
             "Filament: {volume} mm\u00b3, {mass:.4g} g, of which {solid} mm\u00b3 are walls and "
             "solid layers. Everywhere {even:.3g} % would take the same.",
@@ -351,7 +351,7 @@ class SlicerPanel:
             volume=grouped(round(obj.FilamentVolume.Value)), mass=mass_of(obj),
             solid=grouped(round(obj.SolidVolume.Value)), even=obj.EvenDensity,
         )  # fmt: skip
-        self._table.setText(f"<table>{table}</table><p>{told}</p>")
+        self._table.setText(f"<table>{table}</table><p>{note}</p>")
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._text.setStyleSheet(WRONG if wrong else "")

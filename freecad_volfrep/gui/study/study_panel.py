@@ -265,7 +265,7 @@ class StudyPanel:
 
     def _show_time(self) -> None:
         """And about how long that takes."""
-        from volfrep.studies.running.executors import told_time
+        from volfrep.studies.running.executors import time_text
 
         try:
             seconds = expected_seconds(self._obj.Infill, self._lines(), self._fill.isChecked())
@@ -273,7 +273,7 @@ class StudyPanel:
             self._count.setToolTip(str(error))
             return
         text = translate("VolfrepStudy", "{designs}, about {time}")
-        self._count.setText(text.format(designs=self._count.text(), time=told_time(seconds)))
+        self._count.setText(text.format(designs=self._count.text(), time=time_text(seconds)))
 
     def _write(self) -> None:
         """What the panel shows, into the object."""

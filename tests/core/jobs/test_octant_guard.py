@@ -9,7 +9,7 @@ from volfrep import LatticeSpec
 from volfrep.design import memory_guard
 from volfrep.jobs.blocks import block
 from volfrep.jobs.infill import Infill
-from volfrep.jobs.octant_guard import TOLD, deviation_warnings
+from volfrep.jobs.octant_guard import DEVIATION_WARNED, deviation_warnings
 from volfrep.octants import sdf
 from volfrep.octants.octant import octant_grid, octant_primitives
 from volfrep.octants.octant_mesh import mesh_octants, octant_spec
@@ -44,7 +44,7 @@ def test_facets_that_stray_farther_than_promised_are_told_by_how_much(cell, is_t
         farthest = max(farthest, off)
     told = deviation_warnings(octants, wanted)
     assert bool(told) is is_told
-    assert bool(farthest > TOLD * wanted.deviation) is is_told
+    assert bool(farthest > DEVIATION_WARNED * wanted.deviation) is is_told
     if is_told:
         most = max(octant.stray for octant in octants.values())
         assert f"by up to {most:.2g} mm" in told[0]

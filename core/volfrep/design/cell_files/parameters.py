@@ -94,10 +94,10 @@ def chosen_values(parameters: tuple[CellParameter, ...], text: str, cell: str) -
                 f"The cell values '{text}' must be like 'name = number, name = number'."
             )
         if name not in known:
-            told = ", ".join(f"{one.name} ({one.least:g} to {one.most:g})" for one in parameters)
+            has = ", ".join(f"{one.name} ({one.least:g} to {one.most:g})" for one in parameters)
             raise VolfrepError(
                 f"The cell '{cell}' has no value '{name}' to choose: "
-                + (f"it has {told}." if told else "it has none; leave the cell values out.")
+                + (f"it has {has}." if has else "it has none; leave the cell values out.")
             )
         chosen, one = _finite(value, f"cell value '{name}'"), known[name]
         if not one.least <= chosen <= one.most:

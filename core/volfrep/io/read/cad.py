@@ -85,7 +85,7 @@ def read_cad(data: bytes, file: Path, monitor: Monitor | None = None) -> Content
         contents = read_ply(mesh.read_bytes(), file.name)
         warned = mesh.with_name(mesh.name + ".invalid").is_file()
         united = mesh.with_name(mesh.name + ".united")
-        told = _united(united.read_text(encoding="ascii"), file) if united.is_file() else ()
+        notes = _united(united.read_text(encoding="ascii"), file) if united.is_file() else ()
     if warned:
         edges = edges_of(weld_equal(contents.mesh))
         if not (edges.is_manifold and edges.is_closed):
@@ -94,7 +94,7 @@ def read_cad(data: bytes, file: Path, monitor: Monitor | None = None) -> Content
                 "close: mend it there (Part > Check geometry) and export it again."
             )
     warning = f"FreeCAD finds faults in the geometry of '{file.name}' (Part > Check geometry)."
-    return Contents(contents.mesh, "mm", told + ((warning,) if warned else ()))
+    return Contents(contents.mesh, "mm", notes + ((warning,) if warned else ()))
 
 
 def _united(counts: str, file: Path) -> tuple[str, ...]:

@@ -16,7 +16,7 @@ from ...mechanics.summary import CellProperties
 from ...util.arguments import check_kind
 from ...util.errors import VolfrepError
 from ..kinds import kind_of_cell
-from ..kinds.kind import EndlessWish
+from ..kinds.kind import EndlessRequest
 
 
 def lattice_properties(
@@ -79,8 +79,8 @@ def lattice_properties(
     kinds = (SolidMaterial, type(None))
     solid = find_material(material) if isinstance(material, str) else material
     check_kind("material", solid, kinds, "a material's name or file")
-    wish = EndlessWish(
+    request = EndlessRequest(
         strut_radius, relative_density, fillet, solid, along, cell_values, wall_kind,
         wall_thickness, wall_offset, wall_formula, exact, told, as_printed, build_direction, note,
     )  # fmt: skip
-    return kind_of_cell(given).properties(given, Grid(cell_size).size, wish)
+    return kind_of_cell(given).properties(given, Grid(cell_size).size, request)

@@ -77,7 +77,7 @@ class Expected(NamedTuple):
 
 
 @dataclass(frozen=True)
-class EndlessWish:
+class EndlessRequest:
     """What is asked of an endless lattice; attributes as of `figures.properties`."""
 
     strut_radius: float | None
@@ -91,7 +91,7 @@ class EndlessWish:
     wall_offset: float | None
     wall_formula: str
     exact: bool
-    told: Callable[[float], None]
+    on_estimate: Callable[[float], None]
     as_printed: str | None
     build_direction: tuple[float, float, float]
     note: Callable[[str], None]
@@ -354,7 +354,7 @@ class LatticeKind(ABC):
         return None, None
 
     @staticmethod
-    def properties(cell: Any, cell_size: float, wish: EndlessWish) -> CellProperties:
+    def properties(cell: Any, cell_size: float, request: EndlessRequest) -> CellProperties:
         """What the endless lattice of a cell of the kind does.
 
         Raises:

@@ -19,7 +19,7 @@ from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
 from ...util.numbers import number
 from ...util.types import Floats
-from .kind import UNDRAWN, EndlessWish, Expected, LatticeKind
+from .kind import UNDRAWN, EndlessRequest, Expected, LatticeKind
 
 if TYPE_CHECKING:
     from ...mechanics.summary import CellProperties
@@ -137,43 +137,44 @@ class StrutCellKind(LatticeKind):
         return max(largest_ball(spec.unit_cell(), spec.strut_radius / size) * size, 0.0)
 
     @staticmethod
-    def properties(cell: UnitCell, cell_size: float, wish: EndlessWish) -> CellProperties:
+    def properties(cell: UnitCell, cell_size: float, request: EndlessRequest) -> CellProperties:
         """Off the catalogue where it has the cell, else homogenised."""
         from ...mechanics.catalogue import known_cell, known_properties
         from ...mechanics.summary import cell_properties
 
-        radius = wish.strut_radius
+        radius = request.strut_radius
         numbers = {
-            "strut radius": (radius, "mm"), "relative density": (wish.relative_density, ""),
-            "joint fillet": (wish.fillet, "mm"),
+            "strut radius": (radius, "mm"), "relative density": (request.relative_density, ""),
+            "joint fillet": (request.fillet, "mm"),
         }  # fmt: skip
         for name, (value, unit) in numbers.items():
             if value is not None:
                 number(name, value, unit, positive=None)
-        of_walls = wish.wall_kind or wish.wall_formula
-        if wish.given not in (["strut radius"], ["relative density"]) or of_walls:
+        of_walls = request.wall_kind or request.wall_formula
+        if request.given not in (["strut radius"], ["relative density"]) or of_walls:
             raise VolfrepError("Of struts give either a strut radius or a relative density.")
-        if wish.as_printed is not None:
+        if request.as_printed is not None:
             from ...design.as_printed import find_printed_table
             from ..as_printed import printed_radius
 
             if radius is None:
                 raise VolfrepError(UNDRAWN)
-            table = find_printed_table(wish.as_printed)
-            radius, said = printed_radius(cell, cell_size, radius, table, wish.build_direction)
-            wish.note(said)
-        if not (wish.exact or wish.fillet or wish.along):
+            table = find_printed_table(request.as_printed)
+            radius, said = printed_radius(cell, cell_size, radius, table, request.build_direction)
+            request.note(said)
+        if not (request.exact or request.fillet or request.along):
             listed, near = known_cell(cell), radius
-            if wish.relative_density is not None and listed is not None:
-                near = listed.radius_of_density(wish.relative_density, cell_size)
+            if request.relative_density is not None and listed is not None:
+                near = listed.radius_of_density(request.relative_density, cell_size)
             known = None
             if near is not None:
-                known = known_properties(cell, cell_size, near, wish.material)
+                known = known_properties(cell, cell_size, near, request.material)
             if known is not None:
                 return known
         return cell_properties(
-            cell, cell_size, radius, relative_density=wish.relative_density, fillet=wish.fillet,
-            material=wish.material, along=wish.along, told=wish.told,
+            cell, cell_size, radius,
+            relative_density=request.relative_density, fillet=request.fillet,
+            material=request.material, along=request.along, on_estimate=request.on_estimate,
         )  # fmt: skip
 
     @staticmethod

@@ -48,7 +48,7 @@ from ..tpms.octants import (
     tpms_of,
 )
 from ..tpms.stiffness import solve_tpms_stiffness, tpms_modulus
-from .kind import UNDRAWN, EndlessWish, LatticeKind
+from .kind import UNDRAWN, EndlessRequest, LatticeKind
 from .octant_block import LaidBlock, OctantBlock
 from .octant_lattice import OctantLattice
 
@@ -108,27 +108,29 @@ class TpmsKind(LatticeKind):
         return found.thickness * spec.cell_size, found.gap * spec.cell_size
 
     @staticmethod
-    def properties(cell: PeriodicSurface, cell_size: float, wish: EndlessWish) -> CellProperties:
+    def properties(
+        cell: PeriodicSurface, cell_size: float, request: EndlessRequest
+    ) -> CellProperties:
         """Homogenised."""
         from ..tpms.properties import tpms_properties
 
-        if wish.as_printed is not None:
+        if request.as_printed is not None:
             raise VolfrepError(UNDRAWN)
-        if wish.cell_values:
+        if request.cell_values:
             raise VolfrepError(
                 "Surfaces have no values of their own: they are for cells of struts."
             )
-        kind = wish.wall_kind or KINDS[0]
+        kind = request.wall_kind or KINDS[0]
         wall = TpmsSheet(
             kind,
-            1.0 if wish.wall_thickness is None else wish.wall_thickness,
-            0.0 if wish.wall_offset is None else wish.wall_offset,
+            1.0 if request.wall_thickness is None else request.wall_thickness,
+            0.0 if request.wall_offset is None else request.wall_offset,
         )
-        if wish.given not in ([wall.called], ["relative density"]) or wish.fillet:
+        if request.given not in ([wall.called], ["relative density"]) or request.fillet:
             raise VolfrepError(f"Of a {kind} give the {wall.called} or the relative density alone.")
         return tpms_properties(
-            cell, cell_size, wall, relative_density=wish.relative_density,
-            material=wish.material, along=wish.along,
+            cell, cell_size, wall, relative_density=request.relative_density,
+            material=request.material, along=request.along,
         )  # fmt: skip
 
     def modulus(self, target: Target) -> float:

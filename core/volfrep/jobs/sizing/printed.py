@@ -82,7 +82,7 @@ def comes_out(printing: Printing, wireframe: Wireframe, least: float) -> ComesOu
     return ComesOut(factor, added, thinner, total[1] / whole, total[2] / whole)
 
 
-def told_printed(
+def printed_figures(
     printing: Printing, model: SizingModel, design: Analysis, density: float
 ) -> dict[str, Any]:
     """What comes out of a design, for its report: mm and g.
@@ -107,17 +107,17 @@ def told_printed(
     }
 
 
-def printed_note(told: dict[str, Any]) -> str:
+def printed_note(figures: dict[str, Any]) -> str:
     """The same in a sentence for the user."""
-    (thin, thick), (least, most) = told["diameters_mm"], told["drawn_diameters_mm"]
+    (thin, thick), (least, most) = figures["diameters_mm"], figures["drawn_diameters_mm"]
     scatter = ""
-    if told["scatters"]:
+    if figures["scatters"]:
         scatter = (
-            f"; stress and buckling are of struts thinner by {told['scatters']:g} standard "
+            f"; stress and buckling are of struts thinner by {figures['scatters']:g} standard "
             "deviations"
         )
     return (
         f"Stress, stiffness and mass are those of struts as they come out, {thin:.3f} to "
         f"{thick:.3f} mm thick; drawn are {least:.3f} to {most:.3f} mm and "
-        f"{told['drawn_strut_mass_g']:.4g} g ({told['table']}){scatter}."
+        f"{figures['drawn_strut_mass_g']:.4g} g ({figures['table']}){scatter}."
     )

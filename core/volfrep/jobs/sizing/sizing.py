@@ -46,10 +46,10 @@ from .notes import (
     unproved,
 )
 from .part_model import given_radii, part_model
-from .printed import Printing, printed_note, told_printed
+from .printed import Printing, printed_figures, printed_note
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, without_thin_struts
 from .skin_search import SkinDesign, design_skin, skin_peaks, thickness_there
-from .solid_places import solid_places, told_filled
+from .solid_places import filled_notes, solid_places
 
 #: So many times a design is made thicker because of what CalculiX finds.
 CORRECTIONS = 3
@@ -244,21 +244,21 @@ def _with_sized_skin(
     infill, goal = task.infill, task.goal
     spec, limit = infill.spec, goal.limits.stress
 
-    told = _watched(task, 2.5 * most_steps, watch)
+    watched = _watched(task, 2.5 * most_steps, watch)
     design: SkinDesign | None = None
     margin, chosen = MARGIN, task
     for _ in range(SKINS):
         with task.monitor.stage("sizing", 0.4, 0.9), _named(task.model.problem):
             design = design_skin(
                 infill.solid, spec, task.loads, goal, task.monitor, task.cache, design,
-                most_steps=most_steps, watch=told, margin=margin,
+                most_steps=most_steps, watch=watched, margin=margin,
             )  # fmt: skip
         part = Infill(infill.solid, design.spec, monitor=task.monitor, cache=task.cache)
         model = part_model(part, task.loads, goal, task.cache)
         first = design.radii_at(model.wireframe.nodes)
         first = np.clip(first, model.problem.low, model.problem.high)
         chosen = replace(task, infill=part, model=model, first=first, skin=design)
-        search = _search(chosen, most_steps, told)
+        search = _search(chosen, most_steps, watched)
         if limit is None or search.sized.stopped == "cancelled":
             break
         used = max(skin_peaks(search.model, search.sized.analysis)) / limit
@@ -273,14 +273,14 @@ def _watched(
 ) -> Callable[[int, Step], bool]:
     """What is told of each step of a search of so many, and ends it where the job is cancelled."""
 
-    def told(number: int, step: Step) -> bool:
+    def watched(number: int, step: Step) -> bool:
         try:
             task.monitor.tick((number + 1) / steps)
         except Cancelled:
             return False  # there is a design: the best so far is kept
         return watch is None or watch(number, step)
 
-    return told
+    return watched
 
 
 def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | None) -> _Search:
@@ -290,11 +290,11 @@ def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | N
         Cancelled: by the monitor, before there was a design; afterwards it ends the search.
     """
     goal, problem = task.goal, task.model.problem
-    told = _watched(task, most_steps * (2 if goal.remove_thin else 1), watch)
+    watched = _watched(task, most_steps * (2 if goal.remove_thin else 1), watch)
     with task.monitor.stage("sizing", 0.4, 0.95):
         with _named(problem):
             if task.skin is None:
-                whole = _designed(problem, goal, task.first, most_steps, told)
+                whole = _designed(problem, goal, task.first, most_steps, watched)
             else:
                 whole = _with_this_skin(problem, goal, task.first, task.skin)
             even = uniform(problem, goal.limits) if goal.limits.any else None
@@ -302,7 +302,7 @@ def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | N
             whole = _no_worse(whole, even)
         sized, taken = whole, None
         if goal.remove_thin and whole.stopped != "cancelled":
-            taken, sized = _without_thin(task, whole, most_steps, told)
+            taken, sized = _without_thin(task, whole, most_steps, watched)
         model, any_radii = task.model if taken is None else taken.model, None
         if goal.radius_list:
             any_radii = sized.analysis
@@ -438,9 +438,9 @@ def _record(
     if taken is not None:
         report["removed"]["places"] = taken.places
     if search.any_radii is not None:
-        report["radius_list"] = _told_list(task.goal.radius_list, search)
+        report["radius_list"] = _list_figures(task.goal.radius_list, search)
     if task.goal.printing is not None:
-        report["as_printed"] = told_printed(
+        report["as_printed"] = printed_figures(
             task.goal.printing,
             search.model,
             search.sized.analysis,
@@ -458,7 +458,7 @@ def _record(
                 task.loads.material.density, task.skin.solid,
             ),
         }  # fmt: skip
-        report["notes"] += told_filled(report["skin"]["solid"], task.skin.thickest)
+        report["notes"] += filled_notes(report["skin"]["solid"], task.skin.thickest)
     return SizedPart(graded, points, radii, search.model, search.sized, before, search.even, report)
 
 
@@ -473,7 +473,7 @@ def _with_skin(report: dict[str, Any], peaks: list[float], task: _Task, model: S
         last["uses"] = {**last["uses"], **use}
 
 
-def _told_list(radii: tuple[float, ...], search: _Search) -> dict[str, Any]:
+def _list_figures(radii: tuple[float, ...], search: _Search) -> dict[str, Any]:
     """How many nodes have each radius of the list, and what the list costs."""
     free, final = search.any_radii, search.sized.analysis
     assert free is not None

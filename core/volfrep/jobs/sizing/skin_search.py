@@ -129,10 +129,10 @@ def design_skin(
         problem = varied.problem
         first = np.clip(np.concatenate([radii, roots]), problem.low, problem.high)
 
-        def told(step: int, found: Step, done: int = len(steps)) -> bool:
+        def watched(step: int, found: Step, done: int = len(steps)) -> bool:
             return watch(done + step, found)
 
-        sized = _searched(problem, limits, goal, first, most_steps, told)
+        sized = _searched(problem, limits, goal, first, most_steps, watched)
         steps += sized.steps
         count = len(model.wireframe.nodes)
         more = solids

@@ -170,7 +170,7 @@ def solid_places(
     return sorted(found, key=lambda place: -place["mass_g"])
 
 
-def told_filled(places: list[dict[str, Any]], thickest: float) -> list[str]:
+def filled_notes(places: list[dict[str, Any]], thickest: float) -> list[str]:
     """A sentence on what was filled, of `solid_places`; none where nothing was."""
     filled = [place for place in places if place["filled"]]
     if not filled:

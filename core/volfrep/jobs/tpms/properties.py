@@ -78,11 +78,11 @@ def tpms_properties(
             "a thinner one, or larger cells."
         )
     found = homogenise_tpms(solid, density, poisson, octant=octant, along=along, name=surface.name)
-    told = figures_of(found, material)
-    told.errors["relative_density"] = error
+    result = figures_of(found, material)
+    result.errors["relative_density"] = error
     return TpmsProperties(
-        surface.name, cell_size, 0.0, 0.0, density, material, told.stiffness, told.values,
-        told.errors, told.von_mises, found.along[-1], wall,
+        surface.name, cell_size, 0.0, 0.0, density, material, result.stiffness, result.values,
+        result.errors, result.von_mises, found.along[-1], wall,
     )  # fmt: skip
 
 

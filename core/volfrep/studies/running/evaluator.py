@@ -146,11 +146,11 @@ class Evaluator:
 
 def _forecast(bench: Evaluator) -> dict[str, Figure]:
     found = bench.expectation
-    told = dataclasses.asdict(found.forecast)
-    told["strut_radius_mm"] = found.strut_radius
-    told["relative_density"] = found.relative_density
-    told["volume_mm3"], told["mass_g"] = found.volume_mm3, found.mass_g
-    return told
+    figures = dataclasses.asdict(found.forecast)
+    figures["strut_radius_mm"] = found.strut_radius
+    figures["relative_density"] = found.relative_density
+    figures["volume_mm3"], figures["mass_g"] = found.volume_mm3, found.mass_g
+    return figures
 
 
 def _properties(bench: Evaluator) -> dict[str, Figure]:
@@ -172,14 +172,16 @@ def _properties(bench: Evaluator) -> dict[str, Figure]:
     }
     place = tuple(shape.items())
     if place not in bench.shared.properties:
-        bench.shared.properties[place] = _told(lattice_properties(**shape, material=material))
+        bench.shared.properties[place] = _cell_figures(
+            lattice_properties(**shape, material=material)
+        )
     return dict(bench.shared.properties[place])
 
 
-def _told(found: CellProperties) -> dict[str, Figure]:
-    told: dict[str, Figure] = {"relative_density": found.relative_density}
-    told |= {name: found.values[name] for name in (*MODULI, *RATIOS, *LIMITS)}
-    return {**told, "from": "homogenised" if found.along else "catalogue"}
+def _cell_figures(found: CellProperties) -> dict[str, Figure]:
+    figures: dict[str, Figure] = {"relative_density": found.relative_density}
+    figures |= {name: found.values[name] for name in (*MODULI, *RATIOS, *LIMITS)}
+    return {**figures, "from": "homogenised" if found.along else "catalogue"}
 
 
 def _fill(bench: Evaluator) -> dict[str, Figure]:
@@ -239,10 +241,10 @@ def _solve(bench: Evaluator) -> dict[str, Figure]:
     _, found = solve_struts(
         bench.solid, bench.one_radius(), loads, progress=bench.progress, cache=bench.shared.cache
     )
-    told = _carried(found, [case.name for case in loads.cases])
+    figures = _carried(found, [case.name for case in loads.cases])
     limit = loads.material.yield_stress
-    told["safety"] = None if limit is None else _rounded(limit / float(found.stress.max()))
-    return told
+    figures["safety"] = None if limit is None else _rounded(limit / float(found.stress.max()))
+    return figures
 
 
 def _size(bench: Evaluator) -> dict[str, Figure]:
@@ -261,7 +263,7 @@ def _size(bench: Evaluator) -> dict[str, Figure]:
     write_values(values_with_radii(made, radii), path)
     report = made.report
     bench.notes["size"] = list(report["notes"])
-    told: dict[str, Figure] = {
+    figures: dict[str, Figure] = {
         "holds": report["holds"],
         "strut_mass_g": _rounded(report["strut_mass_g"]),
         "thinnest_mm": _rounded(report["radii_mm"][0]),
@@ -270,8 +272,8 @@ def _size(bench: Evaluator) -> dict[str, Figure]:
         "stiffer": _rounded(min(report["same_mass"]["stiffer"], default=1.0)),
     }
     if "same_limits" in report:
-        told["mass_saved"] = _rounded(report["same_limits"]["mass_saved"])
-    return {**told, "file": f"sized/{path.name}"}
+        figures["mass_saved"] = _rounded(report["same_limits"]["mass_saved"])
+    return {**figures, "file": f"sized/{path.name}"}
 
 
 def _carried(found: Analysis, cases: list[str]) -> dict[str, Figure]:

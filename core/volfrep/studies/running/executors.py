@@ -90,12 +90,12 @@ class Tally:
         return sum(self.weights[key] for key in tuple(self._ended))
 
 
-def told_state(done: int, runs: int, seconds: float, text: str = STATE) -> str:
+def state_text(done: int, runs: int, seconds: float, text: str = STATE) -> str:
     """How far runs are, in the words of a text that holds {done}, {runs} and {time}."""
-    return text.format(done=f"{done:,}", runs=f"{runs:,}", time=told_time(seconds))
+    return text.format(done=f"{done:,}", runs=f"{runs:,}", time=time_text(seconds))
 
 
-def told_time(seconds: float) -> str:
+def time_text(seconds: float) -> str:
     """A time with its unit, to be read.
 
     >>> told_time(89), told_time(1200), told_time(5400)

@@ -39,7 +39,7 @@ from .executors import (
     run_by,
     run_here,
     run_in_background,
-    told_state,
+    state_text,
 )
 
 #: Expected seconds of a run without a mesh, with a cell of the catalogue and with another one.
@@ -78,7 +78,7 @@ class How:
     limits: Limits = field(default_factory=Limits)
     retry: bool = False
     interpreter: Program | None = None
-    words: Words = told_state
+    words: Words = state_text
 
     def __post_init__(self) -> None:
         given = [v for v in (self.workers, self.executor, self.scheduler) if v is not None]

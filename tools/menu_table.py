@@ -19,7 +19,7 @@ HEAD = """# Clicked in each FreeCAD
 
 What a real click on each entry of the menu brought in FreeCAD {versions} with a lattice selected; `make test-menu` found no error in the report view and no window beyond the screen. With nothing selected {alike} bring the same, and the others are grey.
 
-| command | what it brought |
+| it brought | commands |
 | --- | --- |
 """  # noqa: E501
 
@@ -38,7 +38,8 @@ def page(runs: list[dict[str, Any]]) -> str:
     """The page, of runs in the order of their releases."""
     tables = {str(run["FreeCAD"]): run["seen"] for run in runs}
     commands = list(dict.fromkeys(name for table in tables.values() for name in table))
-    rows, alike = [], []
+    rows: dict[str, list[str]] = {}
+    alike = []
     for name in commands:
         brought, without = (
             told(
@@ -50,8 +51,12 @@ def page(runs: list[dict[str, Any]]) -> str:
             alike.append(name)
         elif without != "grey":
             brought += f"; with nothing selected: {without}"
-        rows.append(f"| {name} | {brought} |\n")
-    return HEAD.format(versions=", ".join(tables), alike=", ".join(alike)) + "".join(rows)
+        kind, _, rest = brought.partition(" *")
+        if rest and ";" not in brought:  # one window, box or object of a name
+            brought, name = f"{kind} of that name", f"{name} (*{rest})"
+        rows.setdefault(brought, []).append(name)
+    lines = [f"| {brought} | {', '.join(names)} |\n" for brought, names in rows.items()]
+    return HEAD.format(versions=", ".join(tables), alike=", ".join(alike)) + "".join(lines)
 
 
 def main() -> None:

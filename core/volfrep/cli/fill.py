@@ -134,7 +134,8 @@ def _fill(given: argparse.Namespace) -> None:
             solid, spec, progress=progress, meshed=meshed, executor=executor,
             streamed=options.is_plain,
         )  # fmt: skip
-        made.ahead = lambda _: let_go(executor)  # all groups are cut
+        if options.form.name != "stl":  # which they help to write
+            made.ahead = lambda _: let_go(executor)  # all groups are cut
         _make(FilledPart(made, progress=progress), options, start, {"read": read_seconds})
 
 

@@ -52,17 +52,20 @@ def remove_slivers(mesh: TriangleMesh, tolerance: float, among: int | None = Non
 
 def without_slivers(
     mesh: TriangleMesh, tolerance: float, among: int | None = None
-) -> tuple[TriangleMesh, Bools]:
-    """As `remove_slivers`, with (m,) which triangles were not there, or elsewhere."""
+) -> tuple[TriangleMesh, Bools, Ints]:
+    """As `remove_slivers`, with (m,) which triangles were not there, or elsewhere.
+
+    And which ones the first triangles were: all others are last.
+    """
     thin = _slivers(mesh.vertices, mesh.triangles[:among], tolerance)
-    result, new, _ = _rebuilt(mesh, thin, tolerance)
-    return mesh if result is mesh else compact(result, owned=True), new
+    result, new, stayed = _rebuilt(mesh, thin, tolerance)
+    return mesh if result is mesh else compact(result, owned=True), new, stayed
 
 
 def without_slivers_at(
     mesh: TriangleMesh, rows: Ints, tolerance: float
 ) -> tuple[TriangleMesh, Bools]:
-    """As `without_slivers`, of those that share a vertex with chosen triangles, of any mesh."""
+    """`remove_slivers` that share a vertex with chosen triangles, of any mesh; (m,) what is new."""
     near = touching(vertices_of(mesh.triangles[rows], len(mesh.vertices)), mesh.triangles)
     thin = _slivers(mesh.vertices, mesh.triangles[near], tolerance)
     result, new, _ = _rebuilt(mesh, np.flatnonzero(near)[thin], tolerance)

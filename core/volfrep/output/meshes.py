@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +37,7 @@ def write_mesh(
     path: str | os.PathLike[str],
     monitor: Monitor | None = None,
     figures: Mapping[str, str] | None = None,
+    executor: Executor | None = None,
 ) -> None:
     """Write a mesh in the format that the path's extension names.
 
@@ -45,6 +47,7 @@ def write_mesh(
         path: of the file; an old file stays if anything goes wrong.
         monitor: told the progress, asked for a cancel.
         figures: of the run, which a 3MF keeps (`threemf.write_3mf`); no other format has a place.
+        executor: its processes on this machine help with an STL; None: threads.
 
     Raises:
         VolfrepError: unknown extension, unwritable path, or a mesh the format cannot hold.
@@ -63,8 +66,10 @@ def write_mesh(
         surface = surface.whole(monitor or Monitor())
     write: MeshBytes = load(form.bytes_by)
     if isinstance(surface, TrimmedSurface) and form.name == "stl":
-        from ..io.write.stl_octants import write_surface_stl as write
-    if form.name == "3mf":
+        from ..io.write.stl_octants import write_surface_stl
+
+        write_surface_stl(surface, path, monitor, executor)
+    elif form.name == "3mf":
         write(surface, path, monitor, figures or {})
     else:
         write(surface, path, monitor)
@@ -75,5 +80,5 @@ class MeshWriter(Writer):
 
     def write(self, source: Source, path: str | os.PathLike[str], settings: Settings) -> Written:
         """As of `Writer`."""
-        write_mesh(source.surface, path, figures=source.figures)
+        write_mesh(source.surface, path, figures=source.figures, executor=source.executor)
         return Written()

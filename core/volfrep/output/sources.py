@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -34,6 +35,11 @@ if TYPE_CHECKING:
 
 class _OfResult:
     """What a source has of its result; a subclass says what that is."""
+
+    @property
+    def executor(self) -> Executor | None:
+        """As of `Source`."""
+        return None
 
     @property
     def result(self) -> Result:
@@ -84,6 +90,11 @@ class FilledPart(_OfResult):
         self.infill, self._cache, self._progress = infill, cache, progress
         self.spec, self.solid = infill.spec, infill.solid
         self.monitor = Monitor(progress)
+
+    @property
+    def executor(self) -> Executor | None:
+        """As of `Source`."""
+        return self.infill.part_domain.executor
 
     @property
     def result(self) -> Result:
@@ -283,6 +294,7 @@ class Given:
     sides: Wireframe | None = None
     outside: TriangleMesh | None = None
     progress: ProgressCallback | None = None
+    executor: Executor | None = None
 
     @property
     def monitor(self) -> Monitor:

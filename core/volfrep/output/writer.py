@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol
@@ -83,6 +84,10 @@ class Source(Protocol):
     @property
     def figures(self) -> Mapping[str, str]:
         """What a file may keep of the run."""
+
+    @property
+    def executor(self) -> Executor | None:
+        """Helps to write; None: nobody."""
 
     @property
     def volume(self) -> float:

@@ -119,6 +119,11 @@ def processes(
         pool.shutdown(cancel_futures=True)
 
 
+def on_this_machine(executor: Executor | None) -> Executor | None:
+    """An executor of processes of this machine, which see its files; None for any other."""
+    return executor if isinstance(executor, WorkerPool) else None
+
+
 def let_go(executor: Executor | None) -> None:
     """End an executor's processes early, with what they hold, where it has any of this machine.
 

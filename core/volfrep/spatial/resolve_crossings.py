@@ -6,12 +6,16 @@ single precision, and where struts have next to no room between them facets fold
 edge at which the surface turns back, or one that is sharper than struts have it: only there, and in
 the triangles next to it, is looked.
 
+Parts of a surface may be looked at before they are joined (`look_at`); of the whole only the rest
+is looked at then (`Looks`).
+
 While vertices move, who may meet whom is found once, with some room (`CrossingWatch`): a look after
 a move takes only pairs of triangles that moved; what left its room is searched for anew.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,6 +67,9 @@ BLOCK_TRIANGLES = 1 << 15
 ROOM = 0.15
 #: The most cells along the longest side of the grid by which triangles near others are picked.
 MOST_CELLS = 160
+#: Of a triangle it is known whether the surface turns back at its edges; it does at one of them;
+#: it crosses nothing of its part, and meets nothing of another one.
+JUDGED, TURNED, APART = 1, 2, 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,22 +89,103 @@ class Turns:
         return Turns(np.pad(self.among, (0, more)), self.pairs)
 
 
+@dataclass(frozen=True, eq=False)
+class Looks:
+    """What is known of the triangles of a mesh before all of it is looked at.
+
+    Attributes:
+        marks: (m,) uint8, for each triangle the sum of `JUDGED`, `TURNED` and `APART`.
+        step: of the decimals that a text resolves, for which they are apart, mm.
+    """
+
+    marks: NDArray[np.uint8]
+    step: float
+
+    def of(self, rows: Ints | Bools) -> Looks:
+        """The same, of some of the triangles."""
+        return Looks(self.marks[rows], self.step)
+
+    def beside(self, before: int, after: int) -> Looks:
+        """The same, with so many triangles before and after them of which nothing is known."""
+        return Looks(np.pad(self.marks, (before, after)), self.step)
+
+    @property
+    def apart(self) -> Bools:
+        """(m,) bool, triangles of which no two cross each other in a file."""
+        return np.asarray(self.marks & APART != 0, np.bool_)
+
+    def folds(self, mesh: TriangleMesh, deformed: bool) -> Bools:
+        """As `find_folds`, by a look at what is not judged, and what touches it."""
+        turned = self.marks & TURNED != 0
+        unknown = vertices_of(mesh.triangles[self.marks & JUDGED == 0], len(mesh.vertices))
+        rows = np.flatnonzero(touching(unknown, mesh.triangles))
+        if len(rows):
+            part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
+            turned[rows[turning(part, deformed)]] = True
+        return touching(vertices_of(mesh.triangles[turned], len(mesh.vertices)), mesh.triangles)
+
+
+def look_at(
+    mesh: TriangleMesh,
+    rim: Ints,
+    deformed: bool,
+    step: float,
+    alone: Callable[[Ints], Bools],
+    monitor: Monitor,
+) -> Looks:
+    """Look at a part of a surface, where it turns back and crosses itself.
+
+    Args:
+        mesh: the part.
+        rim: its vertices at which others follow: what touches these is not judged.
+        deformed: as of `turns_of`.
+        step: of the decimals of a text of the whole surface, mm.
+        alone: tells which of its triangles meet nothing of another part.
+        monitor: asked for a cancel.
+    """
+    open_ = touching(vertices_of(rim, len(mesh.vertices)), mesh.triangles)
+    marks = np.where(open_, np.uint8(0), np.uint8(JUDGED))
+    turned = turning(mesh, deformed)
+    if not len(turned):
+        return Looks(marks, step)
+    marks[turned] |= TURNED
+    # Those at a fold, and those beside them.
+    near = vertices_of(mesh.triangles[turned], len(mesh.vertices))
+    near = vertices_of(mesh.triangles[touching(near, mesh.triangles)], len(near))
+    rows = np.flatnonzero(touching(near, mesh.triangles) & ~open_)
+    rows = rows[alone(rows)]
+    part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
+    crossing = _crossing(part, np.ones(len(rows), bool), monitor, step=step)
+    marks[rows] |= APART
+    marks[rows[crossing]] &= ~np.uint8(APART)
+    return Looks(marks, step)
+
+
 def turns_of(
-    mesh: TriangleMesh, monitor: Monitor, deformed: bool = False, also: Bools | None = None
+    mesh: TriangleMesh,
+    monitor: Monitor,
+    deformed: bool = False,
+    also: Bools | None = None,
+    looks: Looks | None = None,
 ) -> Turns:
     """Where a mesh turns back, and crosses itself there; as of `resolve_fold_crossings`.
 
     Deformed struts of different joints may meet where nothing turns back: of a mesh that is no
     larger than `MOST_ANYWHERE` all is looked at; of any the triangles (m,) that are looked at
-    `also`.
+    `also`. What its parts' `looks` tell is not looked at again.
     """
+    if looks is not None and looks.step != decimal_step(mesh.vertices):
+        looks = None
     if deformed and len(mesh.triangles) <= MOST_ANYWHERE:
-        among = np.ones(len(mesh.triangles), bool)
-    else:
+        among, looks = np.ones(len(mesh.triangles), bool), None
+    elif looks is None:
         among = find_folds(mesh, deformed)
+    else:
+        among = looks.folds(mesh, deformed)
     if also is not None:
         among |= also
-    return Turns(among, _crossing(mesh, among, monitor))
+    apart = None if looks is None else looks.apart
+    return Turns(among, _crossing(mesh, among, monitor, apart=apart))
 
 
 def resolve_fold_crossings(
@@ -311,21 +399,29 @@ def _about(mesh: TriangleMesh, pairs: Ints, among: Bools) -> Bools:
 
 
 def _crossing(
-    mesh: TriangleMesh, among: Bools, monitor: Monitor, moved: Bools | None = None
+    mesh: TriangleMesh,
+    among: Bools,
+    monitor: Monitor,
+    moved: Bools | None = None,
+    *,
+    apart: Bools | None = None,
+    step: float | None = None,
 ) -> Ints:
     """(k, 2) triangles, chosen or beside such, that cross in a binary file or in one of text.
 
-    At least one of each two has a vertex that was moved, (n,) bool, where these are given.
+    At least one of each two has a vertex that was moved, (n,) bool, where these are given; or is
+    not among those of which it is known that no two cross, (m,) bool.
     """
-    near = np.zeros(len(mesh.vertices), bool)
-    near[mesh.triangles[among]] = True
+    near = vertices_of(mesh.triangles[among], len(mesh.vertices))
     rows = np.flatnonzero(touching(near, mesh.triangles))
-    if not len(rows):
+    step = decimal_step(mesh.vertices) if step is None else step
+    wanted = None if apart is None else ~apart[rows]
+    if moved is not None:
+        wanted = touching(moved, mesh.triangles[rows])
+    if not len(rows) or (wanted is not None and not wanted.any()):
         return np.zeros((0, 2), np.int64)
-    step = decimal_step(mesh.vertices)
     part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
     # Neither rounding moves a coordinate by more than a step: few pairs need an exact look, twice.
-    wanted = None if moved is None else touching(moved, mesh.triangles[rows])
     close = pairs_at_planes(part, step, monitor, wanted)
     found = [
         piercing_among(TriangleMesh(vertices, part.triangles), close)
@@ -367,10 +463,16 @@ def _to_neighbours(mesh: TriangleMesh, rows: Ints, near: Ints) -> Floats:
 
 
 def find_folds(mesh: TriangleMesh, deformed: bool = False) -> Bools:
-    """(m,) the triangles that have a corner at an edge where the surface turns back on itself.
+    """(m,) the triangles that have a corner at a triangle where the surface turns back on itself.
 
     Where it is deformed, also those at sharp edges that stick out.
     """
+    turned = mesh.triangles[turning(mesh, deformed)]
+    return touching(vertices_of(turned, len(mesh.vertices)), mesh.triangles)
+
+
+def turning(mesh: TriangleMesh, deformed: bool = False) -> Ints:
+    """The triangles at both sides of the edges of `find_folds`, ascending."""
     size = len(mesh.vertices)
     corners, columns = mesh.triangles.T, mesh.vertices.T
     # At both ends of such an edge two of the normals nearly cancel out, and so their sum is short.
@@ -403,10 +505,8 @@ def find_folds(mesh: TriangleMesh, deformed: bool = False) -> Bools:
         beyond = mesh.vertices[apex[other]] - mesh.vertices[start[side]]
         sticks_out = sum(along[one] * beyond[:, k] for k, along in enumerate(normal)) < 0.0
         turned |= (cosine < STICKS_OUT) & sticks_out
-    near = np.zeros(size, bool)
-    near[mesh.triangles[rows[one[turned]]]] = True
-    near[mesh.triangles[rows[two[turned]]]] = True
-    return touching(near, mesh.triangles)
+    found: Ints = np.unique(rows[np.concatenate([one[turned], two[turned]])])
+    return found
 
 
 def _rough_normals(columns: Floats, corners: NDArray[np.int32]) -> NDArray[np.float32]:

@@ -23,6 +23,7 @@ from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate
 from ..process.cluster import Watch
 from ..process.pool import at_once
 from ..spatial.rays import inside_points
+from ..spatial.resolve_crossings import Looks
 from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
 from ..util.progress import POLL_SECONDS, Monitor
@@ -89,7 +90,7 @@ def trim(
     inner = InnerOctants(laid, kept.inside) if kept.inside.any() else None
     groups = group_octants(laid, domain, monitor, precision)
     found = _joined(groups, inner, cavity, monitor, executor, ahead)
-    trimmed = TrimmedSurface(found.mesh, inner)
+    trimmed = TrimmedSurface(found.mesh, inner, found.looks)
     if not trimmed.is_joined:
         # The Boolean has taken out vertices at the caps, as it may do between tiny triangles: let
         # all the octants go through it, which takes longer.
@@ -289,11 +290,13 @@ class Joined:
         mesh: of all of them, first vertices first.
         on_wall: (m,) bool, triangles that lie on the wall.
         loose: pieces that are open where no other one nor the rim follows.
+        looks: what is known of its triangles; None: nothing.
     """
 
     mesh: TriangleMesh
     on_wall: Bools
     loose: Ints
+    looks: Looks | None = None
 
 
 def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
@@ -331,7 +334,19 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     at_rim[seam[chosen[row[row >= 0]]]] = True
     loose.append(np.searchsorted(begin, _open(triangles, number, seam, at_rim), "right") - 1)
     mesh = compact(whole, owned=True)
-    return Joined(mesh, on_wall, np.unique(np.concatenate(loose)))
+    return Joined(mesh, on_wall, np.unique(np.concatenate(loose)), _known(pieces))
+
+
+def _known(pieces: Sequence[Piece]) -> Looks | None:
+    """What is known of the triangles of pieces, one after the other."""
+    steps = {piece.looks.step for piece in pieces if piece.looks is not None}
+    if len(steps) != 1:
+        return None
+    marks = [
+        np.zeros(len(piece.on_wall), np.uint8) if piece.looks is None else piece.looks.marks
+        for piece in pieces
+    ]
+    return Looks(np.concatenate(marks), steps.pop())
 
 
 def _twice(cluster: Ints, owner: Ints) -> Ints:

@@ -8,8 +8,6 @@ apart what would cross in a file, and sends lines through what was moved.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from ..mesh.float32_repair import (
@@ -55,9 +53,10 @@ def tidy(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimmed
         precision: `shortest_edge` of the part, mm.
         monitor: for cancel.
     """
-    smooth, new = without_slivers(surface.mesh, precision)
+    smooth, new, stayed = without_slivers(surface.mesh, precision)
     release_memory()
-    result = replace(surface, mesh=smooth)
+    looks = surface.looks and surface.looks.of(stayed).beside(0, len(new) - len(stayed))
+    result = surface.on(smooth, looks)
     if not new.any():
         return result
     # What lies about the new triangles is little, and is all that is looked at.
@@ -67,7 +66,7 @@ def tidy(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimmed
         near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])
         if near.any() and result.has_inner_edges(new):  # that those octants may have, too
             return tidy(surface.with_octants(near, monitor), precision, monitor)
-        part = replace(result, mesh=compact(part)).with_octants(near, monitor).mesh
+        part = result.on(compact(part)).with_octants(near, monitor).mesh
         among = np.pad(among, (0, len(part.triangles) - len(among)))
     if monitor.call(lambda: crossing_triangles(part, among, precision)).any():
         return surface  # a sliver is better than facets that cross
@@ -99,7 +98,7 @@ def finish(
     mesh = surface.mesh
     apart = separate_vertices(mesh, edge_within(quality.bounds))
     if apart is not mesh:
-        changed = replace(surface, mesh=apart)
+        changed = surface.on(apart)
         wider = _with_reached(surface, changed, monitor)
         if wider is not changed:
             return finish(wider, quality, monitor, moved, cut, least)
@@ -111,7 +110,7 @@ def finish(
         quality, least = again, 0.5 * least  # the shells may have lost as much
     straight, place, drawn = surface.mesh, None, False
     if moved or cut:
-        turns = turns_of(surface.mesh, monitor, moved)
+        turns = turns_of(surface.mesh, monitor, moved, looks=surface.looks)
         if len(turns.pairs) and surface.octants is not None:  # which may have to go along
             beside = len(surface.mesh.triangles)
             surface = _with_octants_about(surface, turns.pairs, monitor)
@@ -122,7 +121,7 @@ def finish(
             surface, straight, place = thinned(surface, turns, straight, place, monitor, moved)
         drawn = straight is not before
     if drawn:
-        changed = replace(surface, mesh=straight)
+        changed = surface.on(straight)
         wider = _with_reached(surface, changed, monitor)
         if wider is not changed:
             return finish(wider, quality, monitor, moved, cut, least)
@@ -181,7 +180,7 @@ def thinned(
     precision, rows = edge_within(surface.bounds), np.unique(turns.pairs)
     for factor in THINNER:
         mesh, new = without_slivers_at(surface.mesh, rows, factor * precision)
-        changed = replace(surface, mesh=mesh)
+        changed = surface.on(mesh)
         if not new.any() or not changed.is_joined:
             continue
         if changed.octants is not None:

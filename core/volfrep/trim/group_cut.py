@@ -11,7 +11,7 @@ that went in.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,11 +20,12 @@ from numpy.typing import NDArray
 from ..lattice.assembly import facets, neighbour_missing
 from ..lattice.placed_octants import Placed
 from ..mesh.booleans import from_library, to_library
-from ..mesh.float32_repair import without_inner_slivers
+from ..mesh.float32_repair import STEPS, without_inner_slivers
 from ..mesh.topology import open_vertices
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
 from ..spatial.rays import inside_points
-from ..spatial.self_intersection import crossing_triangles
+from ..spatial.resolve_crossings import Looks, look_at
+from ..spatial.self_intersection import crossing_triangles, meeting_boxes
 from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
 from ..util.progress import Monitor
@@ -34,6 +35,9 @@ from .seams import NotCertain
 
 if TYPE_CHECKING:
     import manifold3d
+
+#: What is farther than so many steps of a file's numbers from what lies elsewhere does not meet it.
+CLEAR_STEPS = 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +78,7 @@ class Piece:
         rim: vertices at open edges.
         work: what was done, counted.
         defect: what is not a solid; empty otherwise.
+        looks: what is known of its triangles; None: nothing.
     """
 
     mesh: TriangleMesh
@@ -81,6 +86,7 @@ class Piece:
     rim: Ints
     work: dict[str, int] = field(default_factory=dict)
     defect: str = ""
+    looks: Looks | None = None
 
     @property
     def error(self) -> Exception:
@@ -111,7 +117,47 @@ def cut_group(group: Group, monitor: Monitor | None = None) -> Piece:
         piece = _cut_along_seam(group, surfaces, capped, asked, monitor)
     except NotCertain:
         piece = _cut_by_library(group, surfaces, len(caps), capped(), asked, monitor)
-    return piece if piece.defect else _tidied(piece, group.precision, asked)
+    if piece.defect:
+        return piece
+    piece = _tidied(piece, group.precision, asked)
+    return piece if group.alone or not group.precision else _looked_at(piece, group, asked)
+
+
+def _looked_at(piece: Piece, group: Group, monitor: Monitor) -> Piece:
+    """The piece with what its own triangles tell of folds and of facets that cross there."""
+    mesh, placed, step = piece.mesh, group.placed, group.precision / STEPS
+    layout, far = placed.layout, CLEAR_STEPS * step
+    half = 0.5 * layout.grid.cell_size
+    others = np.pad(group.beside | group.follow, 1, constant_values=True)
+    elsewhere = group.wall.vertices[group.wall.triangles[~group.own_wall]]
+
+    def alone(rows: Ints) -> Bools:
+        """Those that lie in the group's own octants only, and beside no wall of other groups."""
+        if placed.points is not None:  # octants reach out of their places
+            return np.zeros(len(rows), bool)
+        corners = mesh.vertices[mesh.triangles[rows]]
+        # As `InnerOctants.reached` counts places, and one more on every side.
+        places = (placed.motion.back(corners) - layout.grid.origin) / half
+        places += 2.0 - 2.0 * layout.first
+        limit = np.array(others.shape) - 1
+        low, high = places.min(axis=1) - far / half, places.max(axis=1) + far / half
+        first, last = (np.clip(np.floor(end).astype(np.int64), 0, limit) for end in (low, high))
+        taken = np.pad(others.astype(np.int64), ((1, 0),) * 3)
+        taken = taken.cumsum(0).cumsum(1).cumsum(2)
+        met = np.zeros(len(rows), np.int64)
+        for i, j, k in np.ndindex(2, 2, 2):
+            at = [(last if end else first)[:, axis] + end for axis, end in enumerate((i, j, k))]
+            met += (1 if (i + j + k) % 2 else -1) * taken[tuple(at)]
+        result = met == 0
+        if len(elsewhere) and len(rows):
+            least, most = corners.min(axis=1) - far, corners.max(axis=1) + far
+            ends = elsewhere.min(axis=1), elsewhere.max(axis=1)
+            result[meeting_boxes(least, most, *ends, half)[0]] = False
+        return np.asarray(result, np.bool_)
+
+    deformed = placed.points is not None
+    looks = monitor.call(lambda: look_at(mesh, piece.rim, deformed, step, alone, Monitor()))
+    return replace(piece, looks=looks)
 
 
 def _tidied(piece: Piece, precision: float, monitor: Monitor) -> Piece:

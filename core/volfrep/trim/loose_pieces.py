@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,7 +93,7 @@ def clear(
     gone = loose | tiny | inside_loose
     goes = gone[label]
     rest = compact(TriangleMesh(mesh.vertices, mesh.triangles[~goes]), owned=True)
-    left = replace(surface, mesh=rest)
+    left = surface.on(rest, surface.looks and surface.looks.of(~goes))
     if found.quality.watertight and left.triangles:
         taken = measure(compact(TriangleMesh(mesh.vertices, mesh.triangles[goes])))
         quality = subtract_shells(found.quality, taken, left.bounds, volume[used & ~gone])

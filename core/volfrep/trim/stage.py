@@ -195,7 +195,9 @@ def cleared_cut(
     if not with_skin:
         return cleared
     cut = cleared.surface
-    both = replace(cut, mesh=concatenate(solid, cut.mesh))
+    outside = len(solid.triangles)
+    looks = cut.looks and cut.looks.beside(outside, 0)
+    both = cut.on(concatenate(solid, cut.mesh), looks)
     skin = inspect(solid, monitor)
     return replace(
         cleared,

@@ -18,6 +18,7 @@ from ..lattice.assembly import facet_blocks
 from ..mesh.quality import Inspection, Quality, inspect
 from ..mesh.topology import corners_among, pieces_of
 from ..mesh.triangle_mesh import TriangleMesh, box_of
+from ..spatial.resolve_crossings import Looks
 from ..spatial.winding import Lines, Windings, mesh_blocks
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
@@ -47,10 +48,16 @@ class TrimmedSurface:
     Attributes:
         mesh: what was cut; open where octants inside follow.
         octants: those that belong to the surface beside the mesh; None for none.
+        looks: what is known of the mesh's triangles; None: nothing.
     """
 
     mesh: TriangleMesh
     octants: InnerOctants | None = None
+    looks: Looks | None = None
+
+    def on(self, mesh: TriangleMesh, looks: Looks | None = None) -> TrimmedSurface:
+        """The surface with another mesh, and what is known of that."""
+        return TrimmedSurface(mesh, self.octants, looks)
 
     @property
     def triangles(self) -> int:
@@ -88,7 +95,8 @@ class TrimmedSurface:
             np.concatenate([self.mesh.triangles, row.astype(np.int32)[more.triangles]]),
         )
         rest = inner.where & ~where
-        return TrimmedSurface(mesh, InnerOctants(inner.laid, rest) if rest.any() else None)
+        looks = self.looks and self.looks.beside(0, len(more.triangles))
+        return TrimmedSurface(mesh, InnerOctants(inner.laid, rest) if rest.any() else None, looks)
 
     def met_by(self, lines: Lines) -> Windings:
         """What lines meet of it."""

@@ -96,7 +96,7 @@ def test_as_many_workers_as_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> No
 def test_workers_go_when_all_groups_are_cut_and_groups_are_cut_without_them(
     tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert fill(part, tmp_path / "one.stl", "--workers", 1, "--quiet") == 0
+    assert fill(part, tmp_path / "one.ply", "--workers", 1, "--quiet") == 0
     made: list[pool.WorkerPool] = []
     join, let_go = boolean_trim.join, pool.let_go
 
@@ -114,8 +114,8 @@ def test_workers_go_when_all_groups_are_cut_and_groups_are_cut_without_them(
 
     monkeypatch.setattr(pool, "let_go", kept)
     monkeypatch.setattr(boolean_trim, "join", all_loose)
-    assert fill(part, tmp_path / "two.stl", "--workers", 2, "--quiet") == 0
-    one, two = (measure(read_solid(tmp_path / f"{name}.stl")) for name in ("one", "two"))
+    assert fill(part, tmp_path / "two.ply", "--workers", 2, "--quiet") == 0
+    one, two = (measure(read_solid(tmp_path / f"{name}.ply")) for name in ("one", "two"))
     assert (one.bodies, one.genus) == (two.bodies, two.genus)
     assert one.volume == pytest.approx(two.volume, rel=1e-9)
 

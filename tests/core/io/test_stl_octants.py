@@ -14,10 +14,12 @@ import samples
 from volfrep import LatticeSpec
 from volfrep.design.grading import RadiusGrading
 from volfrep.design.profile import Profile
+from volfrep.io.write import stl
 from volfrep.io.write.stl import FACET, HEADER_BYTES, write_stl
 from volfrep.io.write.stl_octants import write_surface_stl
 from volfrep.jobs.infill import Infill
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.process.pool import WorkerPool, processes
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.progress import Monitor
 
@@ -81,3 +83,21 @@ def test_a_surface_without_octants_beside_it(tmp_path: Path) -> None:
     write_surface_stl(whole, tmp_path / "placed.stl")
     write_stl(whole.mesh, tmp_path / "mesh.stl")
     assert (tmp_path / "placed.stl").read_bytes() == (tmp_path / "mesh.stl").read_bytes()
+
+
+@pytest.mark.costly
+def test_processes_write_what_threads_do(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    surface = some_in_the_mesh(made(SPEC), 2)
+    write_surface_stl(surface, tmp_path / "here.stl")
+    monkeypatch.setattr(stl, "CALL_FACETS", 20_000)
+    with processes(2) as executor:
+        assert isinstance(executor, WorkerPool)
+        write_surface_stl(surface, tmp_path / "there.stl", executor=executor)
+        assert executor.workers, "they were asked"
+        for worker in executor.workers:
+            worker.kill()
+        write_surface_stl(surface, tmp_path / "lost.stl", executor=executor)
+    write_surface_stl(surface, tmp_path / "after.stl", executor=executor)
+    here = (tmp_path / "here.stl").read_bytes()
+    for name in ("there", "lost", "after"):
+        assert (tmp_path / f"{name}.stl").read_bytes() == here

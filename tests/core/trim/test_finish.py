@@ -211,7 +211,8 @@ def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
     def bad(mesh, tolerance, among=None):
         vertices = mesh.vertices.copy()
         vertices[0] += [70.0, 55.0, 40.0]  # a corner through the opposite faces
-        return TriangleMesh(vertices, mesh.triangles), np.ones(len(mesh.triangles), bool)
+        every = np.arange(len(mesh.triangles))
+        return TriangleMesh(vertices, mesh.triangles), every >= 0, every
 
     monkeypatch.setattr("volfrep.trim.finish.without_slivers", bad)
     assert tidy(TrimmedSurface(box), 1e-4, Monitor()).mesh is box
@@ -223,7 +224,8 @@ def test_slivers_away_from_all_octants_take_none_of_these_along(monkeypatch):
 
     def rebuilt(mesh, tolerance):
         corner = mesh.vertices.sum(axis=1).argmin()
-        return mesh, (mesh.triangles == corner).any(axis=1)
+        new = (mesh.triangles == corner).any(axis=1)
+        return mesh, new, np.arange(len(new))
 
     monkeypatch.setattr("volfrep.trim.finish.without_slivers", rebuilt)
     monkeypatch.setattr(TrimmedSurface, "has_inner_edges", lambda surface, among: True)
@@ -239,7 +241,7 @@ def test_new_triangles_are_those_that_were_not_there():
     vertices = part.vertices.copy()
     vertices[b] = vertices[a] + 3e-5
     pinched = TriangleMesh(vertices, part.triangles)
-    mesh, new = without_slivers(pinched, 1e-4)
+    mesh, new, _ = without_slivers(pinched, 1e-4)
     assert len(mesh.triangles) == len(part.triangles) - 2
 
     def places(mesh, rows):
@@ -275,7 +277,7 @@ def test_vertices_at_the_rim_of_octants_beside_the_mesh_take_these_along(monkeyp
 def test_octants_about_facets_that_cross_go_along_and_the_others_stay_beside(monkeypatch):
     at_rim = []
 
-    def crossing(mesh, *_):
+    def crossing(mesh, *_, looks):
         at_rim.append(rim_of(mesh)[0])
         pair = np.flatnonzero((mesh.triangles == at_rim[0]).any(axis=1))[:2]
         return Turns(np.zeros(len(mesh.triangles), bool), pair[None])

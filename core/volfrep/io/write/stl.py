@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Executor, Future, wait
 from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
@@ -14,9 +15,10 @@ from numpy.typing import NDArray
 
 from ...mesh.precision import refuse_lost_corners, single_precision
 from ...mesh.triangle_mesh import TriangleMesh, compact
+from ...process.pool import on_this_machine
 from ...util.errors import VolfrepError
 from ...util.files import replacing, write_at
-from ...util.progress import Monitor
+from ...util.progress import POLL_SECONDS, Monitor
 from ...util.threads import in_threads
 from ...util.types import Floats
 
@@ -29,6 +31,8 @@ Facets = NDArray[np.void]
 MOST_FACETS = int(np.iinfo(np.uint32).max)
 #: Facets prepared at once by each thread: they should stay in the processor's cache.
 BLOCK_FACETS = 1 << 13
+#: Facets that a worker is asked for at a time.
+CALL_FACETS = 1 << 18
 
 
 @dataclass(frozen=True)
@@ -38,10 +42,16 @@ class Block:
     Attributes:
         count: of them.
         make: called on any thread.
+        goes: whether it pickles, and is little beside what it makes: any process may make it.
     """
 
     count: int
     make: Callable[[], Facets]
+    goes: bool = False
+
+
+#: Where blocks lie in a file, and they.
+Placed = list[tuple[int, Block]]
 
 
 def write_stl(
@@ -77,7 +87,11 @@ def mesh_blocks(
 
 
 def write_facets(
-    path: str | os.PathLike[str], count: int, blocks: Iterable[Block], monitor: Monitor | None
+    path: str | os.PathLike[str],
+    count: int,
+    blocks: Iterable[Block],
+    monitor: Monitor | None,
+    executor: Executor | None = None,
 ) -> None:
     """Write a binary STL of blocks of facets.
 
@@ -86,6 +100,7 @@ def write_facets(
         count: of all the facets.
         blocks: each is made and written on one of the threads, at its place in the file.
         monitor: told the progress, asked for a cancel.
+        executor: its processes on this machine make the blocks that go; None: threads.
 
     Raises:
         VolfrepError: there are more facets than the format can count, or the path cannot be
@@ -93,6 +108,7 @@ def write_facets(
         Cancelled: when the monitor says so; no file is left behind.
     """
     refuse_too_many(count, path)
+    executor = on_this_machine(executor)
     head = b"binary STL, mm".ljust(HEADER_BYTES, b" ") + np.array(count, "<u4").tobytes()
     with replacing(path, len(head) + FACET.itemsize * count) as file:
         file.write(head)
@@ -104,18 +120,67 @@ def write_facets(
                 yield place, block
                 place += FACET.itemsize * block.count
 
+        given: list[tuple[Placed, Future[int]]] = []
+        here: Iterable[tuple[int, Block]] = placed()
+        if executor is not None:
+            here, calls = _shared_out(here)
+            for call in calls:
+                try:
+                    given.append((call, executor.submit(write_blocks, file.name, call)))
+                except RuntimeError:  # it takes nothing more, as when its processes were killed
+                    here += call
+
         def write(each: tuple[int, Block]) -> int:
             place, block = each
             write_at(file, block.make().data, place)
             return block.count
 
         written = 0
-        with closing(in_threads(write, placed())) as ended:  # before the file is
+
+        def note(more: int) -> None:
+            nonlocal written
+            written += more
+            if monitor is not None:
+                monitor.count("bytes written", FACET.itemsize * more)
+                monitor.tick(written / count)
+
+        with closing(in_threads(write, here)) as ended:  # before the file is
             for more in ended:
-                written += more
-                if monitor is not None:
-                    monitor.count("bytes written", FACET.itemsize * more)
-                    monitor.tick(written / count)
+                note(more)
+        for call, future in given:
+            while not future.done():
+                wait([future], POLL_SECONDS)
+                note(0)
+            if future.cancelled() or future.exception() is not None:
+                for each in call:  # its worker was lost; what is wrong otherwise shows again
+                    note(write(each))
+            else:
+                note(future.result())
+
+
+def _shared_out(blocks: Iterable[tuple[int, Block]]) -> tuple[Placed, list[Placed]]:
+    """Blocks that stay in this process, and those that go, some at a time."""
+    here: Placed = []
+    calls: list[Placed] = [[]]
+    facets = 0
+    for place, block in blocks:
+        if not block.goes:
+            here.append((place, block))
+            continue
+        calls[-1].append((place, block))
+        facets += block.count
+        if facets >= CALL_FACETS:
+            calls.append([])
+            facets = 0
+    return here, [call for call in calls if call]
+
+
+def write_blocks(path: str, blocks: Placed) -> int:
+    """Write blocks at their places in a file that is there; how many facets they have."""
+    with open(path, "r+b") as file:
+        for place, block in blocks:
+            write_at(file, block.make().data, place)
+    return sum(block.count for _, block in blocks)
 
 
 def refuse_too_many(count: int, path: str | os.PathLike[str]) -> None:

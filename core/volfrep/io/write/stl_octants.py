@@ -12,7 +12,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING
@@ -56,7 +57,10 @@ def write_octants_stl(
 
 
 def write_surface_stl(
-    surface: TrimmedSurface, path: str | os.PathLike[str], monitor: Monitor | None = None
+    surface: TrimmedSurface,
+    path: str | os.PathLike[str],
+    monitor: Monitor | None = None,
+    executor: Executor | None = None,
 ) -> None:
     """Write a surface: the octants inside, as they are laid, then what is in its mesh.
 
@@ -66,6 +70,7 @@ def write_surface_stl(
         surface: in mm.
         path: of the file; an old file stays if anything goes wrong.
         monitor: told the progress, asked for a cancel.
+        executor: as of `write_facets`.
 
     Raises:
         VolfrepError: as `write_stl` and `write_octants_stl`.
@@ -77,7 +82,7 @@ def write_surface_stl(
         filled = filled_places(surface, inner, path)
         blocks = (some.block(facets) for some, facets in filled)
         rest = chain(blocks, mesh_blocks(surface.mesh, path, left_over(surface, inner)))
-    write_facets(path, surface.triangles, rest, monitor)
+    write_facets(path, surface.triangles, rest, monitor, executor)
 
 
 def places_of(surface: TrimmedSurface) -> InnerOctants | None:
@@ -130,15 +135,17 @@ class Copies:
         places: (k, 3) where they lie.
         each: facets of each.
         facets: makes those of all of them.
+        goes: whether any process may make them, as of `Block`.
     """
 
     places: Ints
     each: int
     facets: Callable[[], Facets]
+    goes: bool = False
 
     def block(self, facets: Callable[[], Facets]) -> Block:
         """In the file, as they are or with others in their places."""
-        return Block(len(self.places) * self.each, facets)
+        return Block(len(self.places) * self.each, facets, self.goes and facets is self.facets)
 
     def without(
         self, gone: Bools, vertices: Floats, triangles: NDArray[np.int32],
@@ -161,6 +168,7 @@ def octant_copies(inner: InnerOctants, path: str | os.PathLike[str]) -> Iterator
 
 def _copies(layout: Layout, motion: Motion) -> Iterator[Copies]:
     grid = layout.grid
+    where = replace(grid, kind=grid.kind[:0], keys=[])  # all that places them: little to be sent
     for key, place in zip(grid.keys, layout.places, strict=True):
         octant = layout.octants[key]
         if not len(octant.triangles) or not len(place):
@@ -178,7 +186,8 @@ def _copies(layout: Layout, motion: Motion) -> Iterator[Copies]:
             size = max(1, BLOCK_FACETS // len(order))
             for begin in range(0, len(own), size):
                 part = slice(begin, begin + size)
-                yield Copies(at[part], len(order), partial(_facets, grid, own[part], pattern))
+                some = partial(_facets, where, own[part], pattern)
+                yield Copies(at[part], len(order), some, goes=True)
 
 
 def _moved_copies(layout: Layout, points: Floats, path: str | os.PathLike[str]) -> Iterator[Copies]:

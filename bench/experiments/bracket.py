@@ -196,7 +196,7 @@ def _without(result: dict[str, Any]) -> str:
     for points in dict.fromkeys(row["points"] for row in peers):
         of = {row["voxels"]: _stages(row, laid, ("Boolean",)) for row in peers
               if row["points"] == points}  # fmt: skip
-        name = f"published method, {points} points, this run"
+        name = f"published method, {points} points"
         shown.append(_case(name, of.get("voxels", {}), of.get("all", {})))
     paper = [dict(zip(("seconds", "replication"), row, strict=True))
              for row in (WITH_VOXELS, WITHOUT_VOXELS)]  # fmt: skip

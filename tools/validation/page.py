@@ -130,10 +130,7 @@ def order_table(
     specimens: list[dict[str, Any]], series: list[dict[str, Any]], found: dict[str, Any]
 ) -> str:
     """Pairs of one series in the right order, and ratios of its largest to its smallest."""
-    lines = [
-        "| series | pairs in the right order | largest over smallest: measured, predicted |\n"
-        "|---|---|---|\n"
-    ]
+    lines = ["Pairs in the right order; the largest over the smallest, measured and predicted:\n\n"]
     names = dict.fromkeys(row["series"] for row in specimens)
     for name, figure in itertools.product(names, FIGURES):
         rows = [row for row in specimens if row["series"] == name and figure in row]
@@ -145,28 +142,28 @@ def order_table(
         right = sum((measured[a] - measured[b]) * (ours[a] - ours[b]) > 0 for a, b in pairs)
         top, low = int(measured.argmax()), int(measured.argmin())
         lines.append(
-            f"| {name}, {figure} | {right} of {len(pairs)} | {measured[top] / measured[low]:.2f}, "
-            f"{ours[top] / ours[low]:.2f} |\n"
+            f"- {name}, {figure}: {right} of {len(pairs)}; {measured[top] / measured[low]:.2f}, "
+            f"{ours[top] / ours[low]:.2f}\n"
         )
     for row in series:
         low, high = row["densities"]
         lines.append(
-            f"| {row['name']}, soft polymer, {low:.1%} to {high:.1%} ({row['source']}), young "
-            f"| 1 of 1 | {row['ratio']:.2f}, {found['growth'][row['name']]:.2f} |\n"
+            f"- {row['name']}, soft polymer, {low:.1%} to {high:.1%} ({row['source']}), young: "
+            f"1 of 1; {row['ratio']:.2f}, {found['growth'][row['name']]:.2f}\n"
         )
     return "".join(lines)
 
 
 def benchmark_table(found: list[dict[str, Any]]) -> str:
     """What is known beside what was found."""
-    lines = ["| problem | known | found | error |\n|---|---|---|---|\n"]
+    lines = []
     source = ""
     for row in found:
         error = row["found"] / row["expected"] - 1.0
         known = f"{row['expected']:.4g}"
         if source != (source := row["source"]):
             known += f" ({source})"
-        lines.append(f"| {row['name']} | {known} | {row['found']:.4g} | {error:+.1%} |\n")
+        lines.append(f"- {row['name']}: {known}, found {row['found']:.4g} ({error:+.1%})\n")
     return "".join(lines)
 
 

@@ -53,7 +53,8 @@ def page(runs: list[dict[str, Any]]) -> str:
             brought += f"; with nothing selected: {without}"
         kind, _, rest = brought.partition(" *")
         if rest and ";" not in brought:  # one window, box or object of a name
-            brought, name = f"{kind} of that name", f"{name} (*{rest})"
+            brought = f"{kind} of that name"
+            name += "" if rest == f"{name}*" else f" (*{rest})"
         rows.setdefault(brought, []).append(name)
     lines = [f"| {brought} | {', '.join(names)} |\n" for brought, names in rows.items()]
     return HEAD.format(versions=", ".join(tables), alike=", ".join(alike)) + "".join(lines)

@@ -68,6 +68,12 @@ def table(columns: Sequence[Column], rows: Sequence[Row]) -> str:
     return f"{text}\n\nIn all rows {', '.join(same)}." if same else text
 
 
+def figures_of(row: Row) -> str:
+    """Seconds, MB of the file and MB of memory, as far as they were measured."""
+    forms = (("seconds", ".2f"), ("mb", ",.1f"), ("peak_mb", ",.0f"))
+    return ", ".join(format(row[key], form) for key, form in forms if row.get(key) is not None)
+
+
 def measured(rows: Sequence[Row], *keys: str) -> list[Row]:
     """The rows that have all of these values."""
     return [row for row in rows if all(row.get(key) is not None for key in keys)]
@@ -116,10 +122,13 @@ def verdict(met: bool | None) -> str:
 
 
 def bars_told(bars: Sequence[Row]) -> str:
-    """Promises beside their figures, a line for those with the same bar."""
-    lines: dict[str, list[str]] = {}
+    """Promises beside their figures, a line for those of one job with the same bar."""
+    lines: dict[tuple[str, str], list[str]] = {}
     for row in bars:
-        words = [row["text"], *([row["measured"]] if "measured" in row else [])]
+        job, _, rest = row["text"].partition(", ")
+        words = [rest, *([row["measured"]] if "measured" in row else [])]
         words += [f"({verdict(row['met'])})"] if row["met"] is not False else []
-        lines.setdefault(row["bar"], []).append(" ".join(words))
-    return "\n".join(f"- bar of {limit}: {'; '.join(rows)}" for limit, rows in lines.items())
+        lines.setdefault((job, row["bar"]), []).append(" ".join(filter(None, words)))
+    return "\n".join(
+        f"- {job}, bar of {limit}: {'; '.join(rows)}" for (job, limit), rows in lines.items()
+    )

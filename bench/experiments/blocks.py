@@ -26,7 +26,7 @@ from ..measuring import (
     triangles_in,
 )
 from ..published import BLOCK, COARSE, POINTS, RADIUS, SIZE, TABLE_1, TABLE_2
-from ..tables import Column, Row, bar, measured, table, yes_no
+from ..tables import Column, Row, bar, figures_of, measured, table, yes_no
 
 COUNT = 10
 SMALL = 2
@@ -192,10 +192,10 @@ def _by_cell(rows: list[Row]) -> str:
     """A row a tool, ours, others' and those that the paper has."""
     shown: dict[str, Row] = {}
     for row in rows:
-        forms = (("seconds", ".2f"), ("mb", ".1f"), ("peak_mb", ",.0f"), ("volume_error", "+.2%"))
-        figures = [format(row[key], form) for key, form in forms if row.get(key) is not None]
         at = shown.setdefault(row["name"], {"name": row["name"]})
-        at[row["cell"]] = row.get("note") or ", ".join(figures)
+        error = row.get("volume_error")
+        told = figures_of(row) + (f", {error:+.2%}" if error is not None else "")
+        at[row["cell"]] = row.get("note") or told
     for tool, found in TABLE_1.items():
         name = f"{tool} (paper)"
         shown[name] = {"name": name, **{c: f"{s:g}, {mb:.1f}" for c, (s, mb) in found.items()}}

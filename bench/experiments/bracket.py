@@ -40,7 +40,7 @@ from ..published import (
     WITH_VOXELS,
     WITHOUT_VOXELS,
 )
-from ..tables import Column, Row, bar, table, yes_no
+from ..tables import Column, Row, bar, figures_of, table, yes_no
 
 COLD_BAR, CHANGE_BAR = 6.0, 4.0
 #: The published method's cells and points along a cell, and which voxels it replicates.
@@ -127,13 +127,14 @@ def _published(context: Context) -> dict[str, Any]:
 
 def render(result: dict[str, Any], images: Path) -> str:
     """Table 3, a plot of the stages, and what voxelisation saves."""
-    rows = [{**row, **_beside(row["cell"], result["peers"])} for row in result["rows"]]
+    rows = [
+        {**row, "ours": figures_of(row), **_beside(row["cell"], result["peers"])}
+        for row in result["rows"]
+    ]
     columns = (
         Column("cell", "cell"),
-        Column("s, cold", "seconds", ".2f"),
+        Column("from cold: s, MB, peak MB", "ours"),
         Column("s, r changed", "change", ".2f"),
-        Column("MB", "mb", ".1f"),
-        Column("peak MB", "peak_mb", ",.0f"),
         Column("closed", "watertight", yes_no),
         Column("bodies", "bodies"),
         Column(f"published method, {COARSE} points: s, MB, peak MB, bodies", "published"),

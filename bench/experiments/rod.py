@@ -11,7 +11,7 @@ import numpy as np
 from ..measuring import Context, bracket, lattice_options, our_block, our_part, rod
 from ..published import ROD as PUBLISHED
 from ..published import ROD_ACTIVE, ROD_GRID
-from ..tables import Column, Row, bar, table, yes_no
+from ..tables import Column, Row, bar, figures_of, table, yes_no
 
 BAR_SECONDS, FIELD_BAR_SECONDS, BLOCK_BAR_SECONDS = 6.0, 12.0, 5.0
 ROD_OPTIONS = (
@@ -59,13 +59,11 @@ def render(result: dict[str, Any], images: Path) -> str:
         seconds, mb = PUBLISHED[row["cell"]] if row["job"] == "piston rod" else (None, None)
         name = f"{row['job']}, {row['cell']}"
         paper = f"{seconds:g}, {mb:.1f}" if seconds else None
-        rows.append({**row, "name": name, "paper": paper})
+        rows.append({**row, "name": name, "ours": figures_of(row), "paper": paper})
     grid = " x ".join(str(n) for n in ROD_GRID)
     columns = (
         Column("job", "name"),
-        Column("s", "seconds", ".2f"),
-        Column("MB", "mb", ".1f"),
-        Column("peak MB", "peak_mb", ",.0f"),
+        Column("s, MB, peak MB", "ours"),
         Column("closed", "watertight", yes_no),
         Column("bodies", "bodies"),
         Column("paper: s, MB", "paper"),

@@ -10,7 +10,7 @@ from typing import Any
 from .. import plots
 from ..measuring import Context, lattice_options, our_block, run, volfrep
 from ..published import CELLS_IN_AN_HOUR
-from ..tables import Column, PowerLaw, Row, bar, measured, power_law, table
+from ..tables import Column, PowerLaw, Row, bar, figures_of, measured, power_law, table
 
 #: Cells along an edge, by what is asked of the facets.
 SERIES: dict[str, tuple[tuple[str, ...], tuple[int, ...]]] = {
@@ -89,10 +89,8 @@ def _table(rows: list[Row]) -> str:
     """A row a number of cells, a column a setting."""
     shown: dict[int, Row] = {}
     for row in rows:
-        forms = (("seconds", ".2f"), ("mb", ",.1f"), ("peak_mb", ",.0f"))
-        figures = [format(row[key], form) for key, form in forms if row.get(key) is not None]
         at = shown.setdefault(row["cells"], {"cells": row["cells"]})
-        at[row["setting"]] = row.get("note") or ", ".join(figures)
+        at[row["setting"]] = row.get("note") or figures_of(row)
     columns = [Column("cells", "cells", ",")]
     columns += [Column(setting.replace(" / ", "/"), setting) for setting in SERIES]
     return table(columns, list(shown.values()))

@@ -53,11 +53,11 @@ def test_a_column_that_says_the_same_in_all_rows_is_told_once():
 
 
 def test_bars_that_are_alike_share_a_line_with_what_was_measured():
-    rows = [bar("fast", 0.9, 1.0, "s"), bar("slow", 1.1, 1.0, "s"), bar("gone", None, 1.0, "s"),
-            bar("large", 70, 64, "MB", ".0f")]  # fmt: skip
+    rows = [bar("block, fast", 0.9, 1.0, "s"), bar("block, slow", 1.1, 1.0, "s"),
+            bar("block, gone", None, 1.0, "s"), bar("large", 70, 64, "MB", ".0f")]  # fmt: skip
     assert bars_told(rows).splitlines() == [
-        "- bar of 1 s: fast 0.90 s (met); slow 1.10 s; gone (not measured)",
-        "- bar of 64 MB: large 70 MB",
+        "- block, bar of 1 s: fast 0.90 s (met); slow 1.10 s; gone (not measured)",
+        "- large, bar of 64 MB: 70 MB",
     ]
 
 

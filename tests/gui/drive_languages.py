@@ -100,6 +100,7 @@ def speak(language, command, word, label, figure):
     leave(QtGui.QDialogButtonBox.Cancel)
     check(f"{language}: the panel closes", wait_until(lambda: panel() is None))
     other_panels(language)
+    for_the_printer(language)
     preferences(language)
 
 
@@ -151,6 +152,58 @@ def other_panels(language):
         leave(answer)
     doc.removeObject(obj.Name)
     settle()
+
+
+def for_the_printer(language):
+    """The windows of those who print: slicer infill, a file's limits, coupons, cells to find."""
+    from freecad_volfrep import make_lattice_infill
+    from freecad_volfrep.gui.cells.cell_finder import CellFinder
+    from freecad_volfrep.gui.printing.coupon_box import CouponBox
+    from freecad_volfrep.gui.printing.export_box import PrinterBox
+
+    doc = App.ActiveDocument
+    select(doc.Block)
+    Gui.runCommand("VOLFREP_SlicerInfill", 0)
+    wait_until(lambda: shown("VolfrepSlicerPanel") is not None)
+    form = shown("VolfrepSlicerPanel")
+    form.findChild(QtGui.QPushButton, "ShowBands").click()
+    table = form.findChild(QtGui.QLabel, "BandTable")
+    check(f"{language}: bands are cut", wait_until(lambda: table.text() != "", 60))
+    settle()
+    look(language, "5_slicer", form)
+    area = next(a for a in Gui.getMainWindow().findChildren(QtGui.QScrollArea)
+                if a.isAncestorOf(form))  # fmt: skip
+    area.ensureWidgetVisible(table)
+    picture(f"language_{language}_5_slicer_end")
+    leave(QtGui.QDialogButtonBox.Cancel)
+    obj = make_lattice_infill(doc, doc.Block, CellSize=10, Resolution=8)
+    doc.recompute()
+    select(obj)
+    export = PrinterBox(obj)
+    export.findChild(QtGui.QComboBox, "Service").setCurrentIndex(1)
+    export.findChild(QtGui.QComboBox, "Printer").setCurrentIndex(1)
+    for number, name, box in ((6, "export", export), (7, "coupons", CouponBox()),
+                              (8, "find", CellFinder())):  # fmt: skip
+        box.show()
+        wait_until(box.isVisible)
+        settle()
+        look(language, f"{number}_{name}", box)
+        box.close()
+        box.deleteLater()
+    doc.removeObject(obj.Name)
+    settle()
+
+
+def look(language, name, form):
+    """Nothing of a form is cut off; its picture."""
+    check(f"{language}: nothing is cut off in {name}", cut_off(form) == [], cut_off(form))
+    picture(f"language_{language}_{name}")
+
+
+def shown(name):
+    """A panel of that name, or None."""
+    found = Gui.getMainWindow().findChildren(QtGui.QWidget, name)
+    return next((widget for widget in found if widget.isVisible()), None)
 
 
 def choose_boundary(obj):

@@ -10,7 +10,7 @@ from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.selection import selected_infill
 from freecad_volfrep.gui.undo import undo_step
 from freecad_volfrep.sentences import localise
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, translate
 from volfrep.util.errors import VolfrepError
 
 from .cell_chart import CellChart
@@ -29,7 +29,7 @@ FIRST_DENSITY, FIRST_MATERIAL, FIRST_SIZE = 0.2, "PA12", 10.0
 #: A strength below is that of what carries nothing in some direction.
 NOTHING = 1e-9
 #: Of the table's columns, px; the last one takes the rest.
-WIDTHS = (170, 65, 80, 110)
+WIDTHS = (150, 65, 80, 110)
 DIRECTIONS = ("x", "y", "z", "110", "111")
 HEADS = (
     QT_TRANSLATE_NOOP("VolfrepFinder", "cell"),
@@ -37,6 +37,11 @@ HEADS = (
     QT_TRANSLATE_NOOP("VolfrepFinder", "density, %"),
     QT_TRANSLATE_NOOP("VolfrepFinder", "modulus"),
     QT_TRANSLATE_NOOP("VolfrepFinder", "least strength"),
+)
+#: The last two where the material is known.
+MPA_HEADS = (
+    QT_TRANSLATE_NOOP("VolfrepFinder", "modulus, MPa"),
+    QT_TRANSLATE_NOOP("VolfrepFinder", "least strength, MPa"),
 )
 
 
@@ -76,16 +81,16 @@ class CellFinder(CellWindow):
             self._say(str(error), wrong=True)
         else:
             count = len(self._found)
-            text = translate(_CONTEXT, "{count} cells, with L = {size:g} mm") if count else (
+            text = translate(_CONTEXT, "{count} cells, with L = {size} mm") if count else (
                 translate(_CONTEXT, "No cell of the library has that: ask for something else.")
             )  # fmt: skip
-            self._say(text.format(count=count, size=self._size), wrong=not count)
+            self._say(text.format(count=count, size=figure(self._size, 4)), wrong=not count)
         self._table.setRowCount(len(self._found))
         for row, one in enumerate(self._found):
             texts = (
-                one.cell, f"{one.strut_radius:.3g}", f"{100.0 * one.relative_density:.3g}",
-                f"{one.young(way):.4g} \u00b1 {100.0 * error_along(one):.1f} %",
-                f"{one.values['strength']:.3g}" if one.values["strength"] > NOTHING else "0",
+                one.cell, figure(one.strut_radius, 3), figure(100.0 * one.relative_density, 3),
+                f"{figure(one.young(way), 4)} \u00b1 {figure(100.0 * error_along(one))} %",
+                figure(one.values["strength"], 3) if one.values["strength"] > NOTHING else "0",
             )  # fmt: skip
             for column, text in enumerate(texts):
                 self._table.setItem(row, column, QtWidgets.QTableWidgetItem(text))
@@ -167,7 +172,6 @@ class CellFinder(CellWindow):
         self._chart = CellChart(self.pick)
         self._table = QtWidgets.QTableWidget(0, len(HEADS))
         self._table.setObjectName("Answers")
-        self._table.setHorizontalHeaderLabels([translate(_CONTEXT, head) for head in HEADS])
         self._table.setSelectionBehavior(QtWidgets.QAbstractItemView.SelectRows)
         self._table.setSelectionMode(QtWidgets.QAbstractItemView.SingleSelection)
         self._table.setEditTriggers(QtWidgets.QAbstractItemView.NoEditTriggers)
@@ -255,11 +259,11 @@ class CellFinder(CellWindow):
     def _show_curves(self) -> None:
         from volfrep.jobs.figures.find import cell_curves
 
-        word = (
-            translate(_CONTEXT, "modulus, MPa")
-            if self._material.currentData()
-            else translate(_CONTEXT, "modulus over the solid's")
-        )
+        is_known = bool(self._material.currentData())
+        over = translate(_CONTEXT, "modulus over the solid's")
+        word = translate(_CONTEXT, MPA_HEADS[0]) if is_known else over
+        heads = (*HEADS[:3], *MPA_HEADS) if is_known else HEADS
+        self._table.setHorizontalHeaderLabels([translate(_CONTEXT, head) for head in heads])
         young = self._young()
         curves = {
             name: (densities.tolist(), (young * moduli).tolist())

@@ -15,6 +15,8 @@ from freecad_volfrep.gui.undo import undo_step
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 
 _CONTEXT = "VolfrepCoupons"
+#: What a line's frame and margins take beside its text, px.
+_MARGINS = 20
 #: The kinds, and what they are.
 KINDS = {
     "cube": QT_TRANSLATE_NOOP("VolfrepCoupons", "Cube between plates, for compression"),
@@ -47,7 +49,10 @@ class CouponBox(QtWidgets.QDialog):  # type: ignore[misc]
         self._first.setRange(0, 9999)
         self._first.setValue(1)
         self._folder = QtWidgets.QLineEdit()
-        self._folder.setPlaceholderText(translate(_CONTEXT, "none: into the document only"))
+        nowhere = translate(_CONTEXT, "none: into the document only")
+        self._folder.setPlaceholderText(nowhere)
+        room = self._folder.fontMetrics().boundingRect(nowhere).width()
+        self._folder.setMinimumWidth(room + _MARGINS)
         look = QtWidgets.QToolButton()
         look.setText("...")
         look.clicked.connect(lambda _=False: self._ask())

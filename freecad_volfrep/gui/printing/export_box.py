@@ -10,8 +10,8 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.gui.qt import QtWidgets
 from freecad_volfrep.gui.widgets.printed_table import PrintedTableFields
-from freecad_volfrep.translation import grouped, translate
-from volfrep.design.file_limits import SERVICES
+from freecad_volfrep.translation import figure, grouped, translate
+from volfrep.design.file_limits import SERVICES, FileLimits
 
 #: The most that the fields take.
 _MOST_TRIANGLES, _MOST_MEGABYTES = 1_000_000_000, 100_000.0
@@ -31,18 +31,21 @@ class PrinterBox(QtWidgets.QDialog):  # type: ignore[misc]
         self.setObjectName("VolfrepPrinterBox")
         self.setWindowTitle(translate("VOLFREP_Export", "Export Lattice"))
         rows = QtWidgets.QFormLayout(self)
-        present = translate(_CONTEXT, "The mesh has {triangles} triangles, {size:.3g} MB as STL.")
+        present = translate(_CONTEXT, "The mesh has {triangles} triangles, {size} MB as STL.")
         count = obj.Mesh.CountFacets
         rows.addRow(
-            QtWidgets.QLabel(present.format(triangles=grouped(count), size=(84 + 50 * count) / 1e6))
+            QtWidgets.QLabel(
+                present.format(triangles=grouped(count), size=figure((84 + 50 * count) / 1e6, 3))
+            )
         )
         self._service = QtWidgets.QComboBox()
         self._service.addItem(translate(_CONTEXT, "My own limits"), "")
         for name, row in SERVICES.items():
-            self._service.addItem(f"{row.name}: {row.limits}", name)
+            self._service.addItem(f"{row.name}: {_said(row.limits)}", name)
         self._triangles = QtWidgets.QSpinBox()
         self._triangles.setRange(0, _MOST_TRIANGLES)
         self._triangles.setSingleStep(100_000)
+        self._triangles.setGroupSeparatorShown(True)
         self._megabytes = QtWidgets.QDoubleSpinBox()
         self._megabytes.setRange(0.0, _MOST_MEGABYTES)
         self._megabytes.setDecimals(1)
@@ -115,6 +118,17 @@ class PrinterBox(QtWidgets.QDialog):  # type: ignore[misc]
         self._printed.file.setEnabled(self._printed.is_own)
         has_any = any(self.wanted().values())
         self._buttons.button(QtWidgets.QDialogButtonBox.Ok).setEnabled(has_any)
+
+
+def _said(limits: FileLimits) -> str:
+    """Limits in the user's words."""
+    said = []
+    if limits.triangles is not None:
+        text = translate(_CONTEXT, "{count} triangles")
+        said.append(text.format(count=grouped(limits.triangles)))
+    if limits.megabytes is not None:
+        said.append(f"{figure(limits.megabytes, 4)} MB")
+    return ", ".join(said)
 
 
 def ask_for_printer(obj: App.DocumentObject) -> dict[str, Any] | None:

@@ -27,7 +27,7 @@ from freecad_volfrep.gui.widgets.panel_manners import (
     narrow,
 )
 from freecad_volfrep.sentences import localise
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, translate
 from volfrep.design.banded_infill import FEWEST_BANDS, MOST, MOST_BANDS
 from volfrep.design.banded_words import PATTERNS
 
@@ -166,7 +166,7 @@ class SlicerPanel:
         self._width = 4 + max(form.fontMetrics().boundingRect(word).width() for word in words)
         for title, names in (
             (
-                translate("VolfrepSlicer", "Density"),
+                translate("VolfrepSlicer", "Density follows"),
                 ("Follows", "DensityStart", "DensityEnd", "Reach", "Direction", "Formula",
                  "FieldFile", "FieldObject", "FieldColumn", "Curve", "Bands"),
             ),
@@ -191,6 +191,13 @@ class SlicerPanel:
         self._table = QtWidgets.QLabel()
         self._table.setObjectName("BandTable")
         self._table.setContentsMargins(6, 2, 6, 2)
+        self._table.setToolTip(
+            translate(
+                "VolfrepSlicer",
+                "Of each band: the density that is wanted, what the slicer is told so that it lays "
+                "as much, and the volume of its sparse infill",
+            )
+        )
         fits_any_width(self._table)
         column.addWidget(self._table)
         self._text = QtWidgets.QLabel()
@@ -210,6 +217,7 @@ class SlicerPanel:
         field.setMinimumWidth(LEAST)
         label = QtWidgets.QLabel(text)
         label.setFixedWidth(self._width)
+        label.setVisible(name != "Follows")  # the box says so, and its words are long
         row = QtWidgets.QWidget()  # which takes no room while it is hidden, other than a form's
         line = QtWidgets.QHBoxLayout(row)
         line.setContentsMargins(0, 0, 0, 0)
@@ -329,8 +337,8 @@ class SlicerPanel:
         head = (
             translate("VolfrepSlicer", "band"),
             translate("VolfrepSlicer", "density"),
-            translate("VolfrepSlicer", "told as"),
-            translate("VolfrepSlicer", "infill"),
+            translate("VolfrepSlicer", "Slicer"),
+            "cm\u00b3",
         )
         lines = ["".join(f"<th align='right'>{word}&nbsp;</th>" for word in head)]
         rows = zip(obj.BandDensities, obj.ToldDensities, obj.BandVolumes, strict=True)
@@ -339,17 +347,17 @@ class SlicerPanel:
         ):
             red, green, blue = (round(255 * part) for part in colour)
             swatch = f"<span style='color: rgb({red},{green},{blue})'>&#9632;</span> {number}"
-            held = f"{grouped(round(volume))}\u00a0mm\u00b3"
-            cells = (swatch, f"{mean:.1f} %", f"{slicer_density:.1f} %", held)
+            percents = (f"{figure(percent, 3)}\u00a0%" for percent in (mean, slicer_density))
+            cells = (swatch, *percents, figure(volume / 1000.0, 3))
             lines.append("".join(f"<td align='right'>{cell}&nbsp;</td>" for cell in cells))
         table = "".join(f"<tr>{line}</tr>" for line in lines)
         note = translate(
             "VolfrepSlicer",
-            "Filament: {volume} mm\u00b3, {mass:.4g} g, of which {solid} mm\u00b3 are walls and "
-            "solid layers. Everywhere {even:.3g} % would take the same.",
+            "Filament: {volume} cm\u00b3, {mass} g, of which {solid} cm\u00b3 are walls and solid "
+            "layers. Everywhere {even} % would take the same.",
         ).format(
-            volume=grouped(round(obj.FilamentVolume.Value)), mass=mass_of(obj),
-            solid=grouped(round(obj.SolidVolume.Value)), even=obj.EvenDensity,
+            volume=figure(obj.FilamentVolume.Value / 1000.0, 4), mass=figure(mass_of(obj), 4),
+            solid=figure(obj.SolidVolume.Value / 1000.0, 4), even=figure(obj.EvenDensity, 3),
         )  # fmt: skip
         self._table.setText(f"<table>{table}</table><p>{note}</p>")
 

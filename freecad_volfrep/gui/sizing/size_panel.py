@@ -43,6 +43,8 @@ from .loads_box import LoadsBox
 
 #: The table of steps is brought up to date so often while they are made, ms.
 TICK = 150
+#: Of the list of tables, px: their names are long.
+_TABLE_WIDTH = 180
 #: Standard deviations that may be asked for, at most.
 _MOST_SCATTER = 6.0
 HEADER = (
@@ -291,6 +293,7 @@ class SizePanel:
     def _add_printed(self, rows: Any) -> None:
         """How struts come out: as drawn, by a table of the infill's process, or by one's own."""
         self._printed = PrintedTableFields(self._show_printed)
+        self._printed.choice.setMinimumWidth(_TABLE_WIDTH)  # on a line of its own
         self._scatter = QtWidgets.QDoubleSpinBox()
         self._scatter.setRange(0.0, _MOST_SCATTER)
         self._scatter.setSingleStep(0.5)

@@ -2401,6 +2401,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>kleinste Festigkeit</translation>
     </message>
     <message>
+      <source>least strength, MPa</source>
+      <translation>kleinste Festigkeit, MPa</translation>
+    </message>
+    <message>
       <source>modulus</source>
       <translation>Modul</translation>
     </message>
@@ -2425,8 +2429,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>relative Dichte</translation>
     </message>
     <message>
-      <source>{count} cells, with L = {size:g} mm</source>
-      <translation>{count} Zellen, mit L = {size:g} mm</translation>
+      <source>{count} cells, with L = {size} mm</source>
+      <translation>{count} Zellen, mit L = {size} mm</translation>
     </message>
   </context>
   <context>
@@ -3049,7 +3053,7 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     </message>
     <message>
       <source>Most triangles</source>
-      <translation>Höchstens Dreiecke</translation>
+      <translation>Dreiecke, höchstens</translation>
     </message>
     <message>
       <source>My own limits</source>
@@ -3068,12 +3072,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Tabelle</translation>
     </message>
     <message>
-      <source>The mesh has {triangles} triangles, {size:.3g} MB as STL.</source>
-      <translation>Das Netz hat {triangles} Dreiecke, als STL {size:.3g} MB.</translation>
+      <source>The mesh has {triangles} triangles, {size} MB as STL.</source>
+      <translation>Das Netz hat {triangles} Dreiecke, als STL {size} MB.</translation>
     </message>
     <message>
       <source>no limit</source>
       <translation>keine Grenze</translation>
+    </message>
+    <message>
+      <source>{count} triangles</source>
+      <translation>{count} Dreiecke</translation>
     </message>
   </context>
   <context>
@@ -4173,8 +4181,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Bodenschichten</translation>
     </message>
     <message>
-      <source>Density</source>
-      <translation>Dichte</translation>
+      <source>Density follows</source>
+      <translation>Dichte folgt</translation>
     </message>
     <message>
       <source>Depth, dense core</source>
@@ -4209,8 +4217,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Filament</translation>
     </message>
     <message>
-      <source>Filament: {volume} mm³, {mass:.4g} g, of which {solid} mm³ are walls and solid layers. Everywhere {even:.3g} % would take the same.</source>
-      <translation>Filament: {volume} mm³, {mass:.4g} g, davon {solid} mm³ Wände und volle Schichten. Überall {even:.3g} % brauchte gleich viel.</translation>
+      <source>Filament: {volume} cm³, {mass} g, of which {solid} cm³ are walls and solid layers. Everywhere {even} % would take the same.</source>
+      <translation>Filament: {volume} cm³, {mass} g, davon {solid} cm³ Wände und volle Schichten. Überall {even} % brauchte gleich viel.</translation>
     </message>
     <message>
       <source>File</source>
@@ -4239,6 +4247,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Object</source>
       <translation>Objekt</translation>
+    </message>
+    <message>
+      <source>Of each band: the density that is wanted, what the slicer is told so that it lays as much, and the volume of its sparse infill</source>
+      <translation>Von jedem Band: die gewünschte Dichte, was dem Slicer genannt wird, damit er so viel legt, und das Volumen seiner lockeren Füllung</translation>
     </message>
     <message>
       <source>Pattern</source>
@@ -4287,14 +4299,6 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>density</source>
       <translation>Dichte</translation>
-    </message>
-    <message>
-      <source>infill</source>
-      <translation>Füllung</translation>
-    </message>
-    <message>
-      <source>told as</source>
-      <translation>genannt als</translation>
     </message>
     <message>
       <source>value:percent</source>

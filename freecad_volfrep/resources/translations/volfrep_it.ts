@@ -2401,6 +2401,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>resistenza minima</translation>
     </message>
     <message>
+      <source>least strength, MPa</source>
+      <translation>resistenza minima, MPa</translation>
+    </message>
+    <message>
       <source>modulus</source>
       <translation>modulo</translation>
     </message>
@@ -2425,8 +2429,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>densità relativa</translation>
     </message>
     <message>
-      <source>{count} cells, with L = {size:g} mm</source>
-      <translation>{count} celle, con L = {size:g} mm</translation>
+      <source>{count} cells, with L = {size} mm</source>
+      <translation>{count} celle, con L = {size} mm</translation>
     </message>
   </context>
   <context>
@@ -3068,12 +3072,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Tabella</translation>
     </message>
     <message>
-      <source>The mesh has {triangles} triangles, {size:.3g} MB as STL.</source>
-      <translation>La mesh ha {triangles} triangoli, {size:.3g} MB come STL.</translation>
+      <source>The mesh has {triangles} triangles, {size} MB as STL.</source>
+      <translation>La mesh ha {triangles} triangoli, {size} MB come STL.</translation>
     </message>
     <message>
       <source>no limit</source>
       <translation>nessun limite</translation>
+    </message>
+    <message>
+      <source>{count} triangles</source>
+      <translation>{count} triangoli</translation>
     </message>
   </context>
   <context>
@@ -4173,8 +4181,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Strati inferiori</translation>
     </message>
     <message>
-      <source>Density</source>
-      <translation>Densità</translation>
+      <source>Density follows</source>
+      <translation>La densità segue</translation>
     </message>
     <message>
       <source>Depth, dense core</source>
@@ -4209,8 +4217,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Filamento</translation>
     </message>
     <message>
-      <source>Filament: {volume} mm³, {mass:.4g} g, of which {solid} mm³ are walls and solid layers. Everywhere {even:.3g} % would take the same.</source>
-      <translation>Filamento: {volume} mm³, {mass:.4g} g, di cui {solid} mm³ di pareti e strati pieni. Ovunque {even:.3g} % richiederebbe lo stesso.</translation>
+      <source>Filament: {volume} cm³, {mass} g, of which {solid} cm³ are walls and solid layers. Everywhere {even} % would take the same.</source>
+      <translation>Filamento: {volume} cm³, {mass} g, di cui {solid} cm³ di pareti e strati pieni. Ovunque {even} % richiederebbe lo stesso.</translation>
     </message>
     <message>
       <source>File</source>
@@ -4239,6 +4247,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Object</source>
       <translation>Oggetto</translation>
+    </message>
+    <message>
+      <source>Of each band: the density that is wanted, what the slicer is told so that it lays as much, and the volume of its sparse infill</source>
+      <translation>Di ogni banda: la densità voluta, ciò che si comunica allo slicer perché deponga altrettanto, e il volume del suo riempimento rado</translation>
     </message>
     <message>
       <source>Pattern</source>
@@ -4287,14 +4299,6 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>density</source>
       <translation>densità</translation>
-    </message>
-    <message>
-      <source>infill</source>
-      <translation>riempimento</translation>
-    </message>
-    <message>
-      <source>told as</source>
-      <translation>comunicata</translation>
     </message>
     <message>
       <source>value:percent</source>

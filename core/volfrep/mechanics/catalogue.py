@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -77,7 +77,7 @@ class CatalogueCell:
             VolfrepError: the ratio lies outside the catalogue.
         """
         self._refuse(ratio)
-        values = np.exp(_spline(self.ratios, self._logs())(np.log(ratio)))
+        values = np.exp(self._log_values(np.log(ratio)))
         found = dict(zip(NAMES, values.tolist(), strict=True))
         shear, bulk = found["C11"], found["C12"]
         found["C11"], found["C12"] = bulk + 4.0 / 3.0 * shear, bulk - 2.0 / 3.0 * shear
@@ -93,10 +93,7 @@ class CatalogueCell:
             found = self.at(ratio)
             return cubic(found["C11"], found["C12"], found["C44"])
         self._refuse(ratio)
-        values, vectors = np.linalg.eigh(self.tensors)
-        values = np.log(np.maximum(values, _NOTHING * values[:, -1:]))
-        logs = (vectors * values[:, None]) @ vectors.swapaxes(1, 2)
-        values, axes = np.linalg.eigh(_spline(self.ratios, logs)(np.log(ratio)))
+        values, axes = np.linalg.eigh(self._log_tensors(np.log(ratio)))
         result: Floats = (axes * np.exp(values)) @ axes.T
         return result
 
@@ -153,12 +150,20 @@ class CatalogueCell:
         place = np.log(ratio)
         return float(np.interp(place, np.log(self.ratios), self.misfit[section][:, 0]))
 
-    def _logs(self) -> Floats:
+    @cached_property
+    def _log_values(self) -> Any:
+        """(7,) logarithms of what `at` is made of, over the logarithm of r / L."""
         values = self.values.copy()
         along, across = self.values[:, 1], self.values[:, 2]
         values[:, 1], values[:, 2] = (along - across) / 2.0, (along + 2.0 * across) / 3.0
-        logs: Floats = np.log(np.maximum(values, np.finfo(float).tiny))
-        return logs
+        return _spline(self.ratios, np.log(np.maximum(values, np.finfo(float).tiny)))
+
+    @cached_property
+    def _log_tensors(self) -> Any:
+        """(6, 6) logarithm of the stiffness, over the logarithm of r / L."""
+        values, vectors = np.linalg.eigh(self.tensors)
+        values = np.log(np.maximum(values, _NOTHING * values[:, -1:]))
+        return _spline(self.ratios, (vectors * values[:, None]) @ vectors.swapaxes(1, 2))
 
     def _refuse(self, ratio: float) -> None:
         if not self.ratios[0] * (1 - 1e-9) <= ratio <= self.ratios[-1] * (1 + 1e-9):

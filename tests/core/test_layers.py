@@ -14,7 +14,7 @@ ENGINE = Path(__file__).resolve().parents[2] / "core" / "volfrep"
 #: The rooms, low to high: a room imports from itself and from those before it.
 ROOMS = (
     "util", "process", "mesh", "spatial", "design", "shell", "grid", "octants", "lattice", "tpms",
-    "graphs", "mechanics", "trim", "fem", "slicing", "io", "loads", "voxels", "continuum", "sizing",
+    "graphs", "mechanics", "trim", "fem", "slicing", "io", "loads", "voxels", "sizing", "continuum",
     "reports", "jobs", "output", "studies", "cli", "api",
 )  # fmt: skip
 #: A module has one subject, and as many lines as that takes. One of more lines than these says in

@@ -392,6 +392,12 @@ def homogenise(
     element: float | None = None,
     frequencies: int = 0,
     load_factors: int = 0,
+    stiffest: bool = False,
+    safety: float | None = None,
+    max_displacement: float | None = None,
+    thinnest: float | None = None,
+    thickest: float | None = None,
+    steps: int = 40,
     unit: str | None = None,
     progress: ProgressCallback | bool | None = None,
     cache: StageCache | None = None,
@@ -406,6 +412,12 @@ def homogenise(
         element: edge of an element, mm; None for a cell, or less where there are few.
         frequencies: how many of the lowest natural ones, with the first case's supports.
         load_factors: how many of the lowest at which the part buckles as a whole, in each case.
+        stiffest: size radii or thicknesses: as stiff as can be at the mass that the part has.
+        safety: size them for the least mass: the lattice is used up to the yield over this.
+        max_displacement: the same: of any place, in any case, mm.
+        thinnest: mm; None for half of what the radius or thickness is.
+        thickest: mm; None for twice.
+        steps: of that search, at most.
         unit: as of `fill`.
         progress: as of `fill`.
         cache: as of `fill`.
@@ -414,7 +426,7 @@ def homogenise(
     Returns:
         Its `report` holds the figures, `states` displacements, the lattice's share of yield and the
         skin's stress of each case; `save` writes .vtu, .json or a CalculiX deck; `conduct` its
-        steady heat.
+        steady heat. Where something was sized, `spec` has it for `fill`.
 
     Raises:
         VolfrepError: the lattice has no cells that repeat, nothing lies where a load acts, or the
@@ -435,6 +447,7 @@ def homogenise(
     True
     """
     from ..jobs.homogenised import homogenise_part
+    from ..jobs.sized_field import field_goal, homogenise_sized
 
     given = with_current_names(parameters)
     refuse_unknown(given, accepted())
@@ -442,6 +455,16 @@ def homogenise(
     with shown(progress) as callback:
         solid, wanted = _asked(part, unit, callback, spec, given, None)
         cases = _loads(loads, solid)
+        asked = {
+            "safety": safety, "max_displacement": max_displacement,
+            "thinnest": thinnest, "thickest": thickest,
+        }  # fmt: skip
+        goal = field_goal(cases, asked, stiffest=stiffest)
+        if goal is not None:
+            return homogenise_sized(
+                solid, wanted, cases, goal, most_steps=steps, element=element,
+                frequencies=frequencies, load_factors=load_factors, progress=callback, cache=cache,
+            )  # fmt: skip
         return homogenise_part(
             solid, wanted, cases, element=element, frequencies=frequencies,
             load_factors=load_factors, progress=callback, cache=cache,

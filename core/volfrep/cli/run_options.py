@@ -422,6 +422,40 @@ RUN_OPTIONS = (
         "N", read=int, default=0,
     ),
     RunOption(
+        "stiffest", ("homogenise",),
+        "size radii or thicknesses: as stiff as the part can be at the mass that it has",
+        group=GOAL_GROUP,
+    ),
+    RunOption(
+        "safety", ("homogenise",),
+        "size them for the least mass: the lattice is used up to the material's yield over this",
+        "S", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "max-displacement", ("homogenise",), "the same: of any place, in any case",
+        "MM", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "thinnest", ("homogenise",), "smallest radius or thickness (default: half of what it is)",
+        "MM", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "thickest", ("homogenise",), "largest (default: twice what it is)",
+        "MM", GOAL_GROUP, float,
+    ),
+    RunOption(
+        "steps", ("homogenise",), "of the search, at most (default 40)", "N", GOAL_GROUP, int, 40,
+    ),
+    RunOption(
+        "radii", ("homogenise",),
+        "what was sized, as --radius-field reads it, of struts or walls", "FILE.csv",
+        GOAL_GROUP, writes="radii",
+    ),
+    RunOption(
+        "write-spec", ("homogenise",), "the specification with what was sized, for fill",
+        "FILE.toml", GOAL_GROUP, writes="written specification",
+    ),
+    RunOption(
         "radii", ("size",), "the radii at the nodes, as --radius-field reads it",
         "FILE.csv", writes="radii",
     ),

@@ -42,14 +42,15 @@ class CellLaw:
     pressed: Floats | None = None
 
     def tensors_at(self, thickness: Floats) -> Floats:
-        """(k, 6, 6) between the samples by the matrices' logarithms; (1, 6, 6) of one sample."""
+        """(k, 6, 6), between samples by logarithms of both; (1, 6, 6) of one sample."""
         values, vectors = np.linalg.eigh(self.tensors)
         values = np.maximum(values, LEAST * values[:, -1:])
         if len(values) == 1:
             result: Floats = (vectors * values[:, None]) @ vectors.swapaxes(1, 2)
             return result
         logs = ((vectors * np.log(values)[:, None]) @ vectors.swapaxes(1, 2)).reshape(-1, 36)
-        found = np.stack([np.interp(thickness, self.thickness, row) for row in logs.T], axis=1)
+        at, known = np.log(thickness), np.log(self.thickness)
+        found = np.stack([np.interp(at, known, row) for row in logs.T], axis=1)
         values, vectors = np.linalg.eigh(found.reshape(-1, 6, 6))
         result = (vectors * np.exp(values)[:, None]) @ vectors.swapaxes(1, 2)
         return result

@@ -49,6 +49,7 @@ class ContinuumModel:
         matrices: (e, 24, 24) float32 N/mm.
         lattice: (e, 6, 6) or (1, 6, 6) of the lattice, in the part's axes, MPa.
         frames: (e, 3, 3) or (1, 3, 3) whose columns are the cells' axes.
+        thickness: (e,) or (1,) mm, radii of struts, thicknesses or offsets of walls.
         density: (e,) or (1,) of the lattice, relative.
         strength: (e, 2) or (1, 2) of the lattice along its edges and in shear, over the solid's.
         conductivity: (e,) or (1,) of the lattice over the solid's.
@@ -66,6 +67,7 @@ class ContinuumModel:
     matrices: Floats
     lattice: Floats
     frames: Floats
+    thickness: Floats
     density: Floats
     strength: Floats
     conductivity: Floats
@@ -139,7 +141,7 @@ def solve_continuum(
         if case.name in free_growth:
             own = own - free_growth[case.name]
         return ContinuumState(
-            case, displacements, own, work, *_stress(model, own), _pressed(model, own), steps
+            case, displacements, own, work, *stress_of(model, own), _pressed(model, own), steps
         )
 
     free_growth: dict[str, Floats] = {}
@@ -174,7 +176,7 @@ def multigrid_of(model: ContinuumModel, free: Bools, monitor: Monitor | None = N
     return Multigrid(fine, model.size, monitor)
 
 
-def _stress(model: ContinuumModel, own: Floats) -> tuple[Floats, Floats]:
+def stress_of(model: ContinuumModel, own: Floats) -> tuple[Floats, Floats]:
     """(e,) share of yield in the lattice, at most, and (e,) MPa in the skin.
 
     Args:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -77,6 +77,7 @@ class HomogenisedPart(Shown):
 
     Attributes:
         model: its bricks.
+        spec: what it is filled with.
         states: of the load cases.
         report: the figures, plain JSON values.
         temperatures: (n,) of the nodes, where there is heat.
@@ -84,6 +85,7 @@ class HomogenisedPart(Shown):
     """
 
     model: ContinuumModel
+    spec: LatticeSpec
     states: tuple[ContinuumState, ...]
     report: dict[str, Any]
     modes: tuple[tuple[str, Floats], ...] = ()
@@ -110,6 +112,9 @@ class HomogenisedPart(Shown):
             cells: dict[str, Any] = {
                 "lattice": model.shares.lattice.mean(axis=1),
                 "skin": model.shares.solid.mean(axis=1),
+                "radius or thickness mm": np.broadcast_to(
+                    model.thickness, len(model.elements.nodes)
+                ),
             }
             for state in self.states:
                 points[f"displacement mm, {state.case.name}"] = state.displacements
@@ -182,11 +187,7 @@ def homogenise_part(
     start = time.perf_counter()
     cache = cache or StageCache()
     monitor = monitor or Monitor(progress)
-    if spec.kind.endless is None or spec.output == "domain":
-        raise VolfrepError(
-            "Only a lattice of cells that repeat can be homogenised: choose a cell, and the output "
-            "part or lattice."
-        )
+    refuse_endless(spec)
     if spec.target is not None:
         spec = solve_target(solid, spec, cache=cache, meshed=False).spec
     infill = Infill(solid, spec, monitor=monitor, cache=cache)
@@ -227,6 +228,9 @@ def homogenise_part(
         "elements": len(model.elements.nodes),
         "element_mm": model.bricks.edge.tolist(),
         "cells_across": model.across,
+        "mass_g": float(model.loaded.shares.sum() * np.prod(model.bricks.edge))
+        * loads.material.density
+        / 1000.0,
         "lattice_mm3": float(model.shares.lattice.mean(axis=1).sum() * np.prod(model.bricks.edge)),
         "cases": [
             {**figures_of(model, state), "load_factors": own}
@@ -237,7 +241,20 @@ def homogenise_part(
         "seconds": time.perf_counter() - start,
         "notes": _notes(infill, model),
     }
-    return HomogenisedPart(model, tuple(states), report, tuple(modes), warm)
+    return HomogenisedPart(model, spec, tuple(states), report, tuple(modes), warm)
+
+
+def refuse_endless(spec: LatticeSpec) -> None:
+    """Refuse a lattice that has no stiffness of its own.
+
+    Raises:
+        VolfrepError: so it has none.
+    """
+    if spec.kind.endless is None or spec.output == "domain":
+        raise VolfrepError(
+            "Only a lattice of cells that repeat can be homogenised: choose a cell, and the output "
+            "part or lattice."
+        )
 
 
 def _heat(model: ContinuumModel, loads: LoadCases) -> tuple[Floats | None, list[dict[str, Any]]]:
@@ -266,34 +283,70 @@ def continuum_model(
     Raises:
         VolfrepError: the bricks are no length, or nothing of the lattice lies in the part.
     """
-    spec, solid = infill.spec, infill.solid
-    low, count, edge = _grid(infill, element)
-    shares, place = _shares(infill, low, count, edge)
-    size = (int(count[0]), int(count[1]), int(count[2]))
-    elements = elements_at(place, size)
-    bricks = Bricks(edge)
-    law = cell_law(spec)
-    middles = (place + 0.5) * edge + low
-    lattice, frames, thickness = _lattice(infill, law, middles)
-    material = loads.material
-    skin = constants(solid_stiffness(material.young, material.poisson))
-    matrices = bricks.matrices(shares, material.young * constants(lattice), skin)
-    filled = (shares.lattice * _of(law.at(law.density, thickness)) + shares.solid).mean(axis=1)
-    if _is_whole(infill) and spec.kind.cube is not None:
-        more = _add_border(infill, bricks, matrices, place, (low, count), law, material.young)
-        filled += more / np.prod(edge) * _of_bare(infill, law)
-    grid = VoxelGrid(low, edge, np.zeros(0), np.zeros(0, np.float32))
-    weighing = Loaded(
-        surface_body(solid, float(edge.max())), grid, elements, filled, material.density
-    )
-    all_lattice = np.zeros(size)
-    all_lattice[tuple(place.T)] = shares.lattice.mean(axis=1)
-    return ContinuumModel(
-        size, low, elements, bricks, shares, matrices, material.young * lattice, frames,
-        law.at(law.density, thickness), law.at(law.strength, thickness),
-        law.at(law.conductivity, thickness), _pressed(infill, law, thickness), material, weighing,
-        cells_across(all_lattice, edge, spec.cell_size),
-    )  # fmt: skip
+    spec, placement = infill.spec, infill.placement
+    graded = spec.radius_grading is not None
+    bricks = PartBricks(infill, loads, cell_law(spec), element)
+    return bricks.model(lambda at: node_radii(spec.struts, at, placement), graded=graded)
+
+
+class PartBricks:
+    """A part's bricks, whatever the thickness of what fills them.
+
+    Args:
+        infill: the part.
+        loads: its material.
+        law: of its cells.
+        element: edge of the bricks, mm; None for what suits the part.
+
+    Raises:
+        VolfrepError: the bricks are no length, or nothing of the lattice lies in the part.
+    """
+
+    def __init__(
+        self, infill: Infill, loads: LoadCases, law: CellLaw, element: float | None = None
+    ) -> None:
+        self.infill, self.law, self.material = infill, law, loads.material
+        self.low, self.count, edge = _grid(infill, element)
+        self.shares, self.place = _shares(infill, self.low, self.count, edge)
+        self.size = (int(self.count[0]), int(self.count[1]), int(self.count[2]))
+        self.elements = elements_at(self.place, self.size)
+        self.bricks = Bricks(edge)
+        self.middles = (self.place + 0.5) * edge + self.low
+        self._body = surface_body(infill.solid, float(edge.max()))
+
+    def model(
+        self, thickness_at: Callable[[Floats], Floats], *, graded: bool = True
+    ) -> ContinuumModel:
+        """The bricks, filled.
+
+        Args:
+            thickness_at: gives (n,) radii of struts or thicknesses of walls at (n, 3) points, mm.
+            graded: whether it varies; else the law's is everywhere.
+        """
+        infill, law, bricks, place = self.infill, self.law, self.bricks, self.place
+        spec, edge, shares, material = infill.spec, self.bricks.edge, self.shares, self.material
+        thickness = thickness_at(self.middles) if graded else law.thickness[:1]
+        lattice, frames, thickness = _lattice(infill, law, self.middles, thickness)
+        skin = constants(solid_stiffness(material.young, material.poisson))
+        matrices = bricks.matrices(shares, material.young * constants(lattice), skin)
+        filled = (shares.lattice * _of(law.at(law.density, thickness)) + shares.solid).mean(axis=1)
+        if _is_whole(infill) and spec.kind.cube is not None:
+            more = _add_border(
+                infill, bricks, matrices, place, (self.low, self.count), law, material.young,
+                thickness_at,
+            )  # fmt: skip
+            filled += more / np.prod(edge) * _of_bare(infill, law)
+        grid = VoxelGrid(self.low, edge, np.zeros(0), np.zeros(0, np.float32))
+        weighing = Loaded(self._body, grid, self.elements, filled, material.density)
+        all_lattice = np.zeros(self.size)
+        all_lattice[tuple(place.T)] = shares.lattice.mean(axis=1)
+        return ContinuumModel(
+            self.size, self.low, self.elements, bricks, shares, matrices,
+            material.young * lattice, frames, thickness, law.at(law.density, thickness),
+            law.at(law.strength, thickness), law.at(law.conductivity, thickness),
+            _pressed(infill, law, thickness), material, weighing,
+            cells_across(all_lattice, edge, spec.cell_size),
+        )  # fmt: skip
 
 
 def _pressed(infill: Infill, law: CellLaw, thickness: Floats) -> Floats | None:
@@ -391,7 +444,8 @@ def cell_law(spec: LatticeSpec) -> CellLaw:
     values = [kind.thickness]
     if grading is not None and grading.extremes[0] < grading.extremes[1]:
         known = kind.catalogue_cell is not None and not spec.fillet
-        values = np.linspace(*grading.extremes, LOOKED_UP if known else HOMOGENISED).tolist()
+        spread = np.linspace if known else np.geomspace
+        values = spread(*grading.extremes, LOOKED_UP if known else HOMOGENISED).tolist()
     along = {} if kind.has_struts else {"along": ALONG}
     found = []
     for value in values:
@@ -409,17 +463,14 @@ def cell_law(spec: LatticeSpec) -> CellLaw:
     )
 
 
-def _lattice(infill: Infill, law: CellLaw, middles: Floats) -> tuple[Floats, Floats, Floats]:
+def _lattice(
+    infill: Infill, law: CellLaw, middles: Floats, thickness: Floats
+) -> tuple[Floats, Floats, Floats]:
     """Stiffness in the part's axes, the cells' axes, and how thick, at the bricks' middles.
 
     One row each where all are alike.
     """
-    spec, placement = infill.spec, infill.placement
-    if spec.radius_grading is None:
-        thickness = law.thickness[:1]
-    else:
-        thickness = node_radii(spec.struts, middles, placement)
-    mapping = placement.mapping
+    spec, mapping = infill.spec, infill.placement.mapping
     if mapping is None:
         return law.tensors_at(thickness), np.eye(3)[None], thickness
     if mapping.is_rigid:
@@ -436,7 +487,7 @@ def _lattice(infill: Infill, law: CellLaw, middles: Floats) -> tuple[Floats, Flo
 
 def _add_border(
     infill: Infill, bricks: Bricks, matrices: Floats, place: Ints, grid: tuple[Floats, Ints],
-    law: CellLaw, young: float,
+    law: CellLaw, young: float, radii_at: Callable[[Floats], Floats],
 ) -> Floats:  # fmt: skip
     """Add the struts in free faces that the homogenised cells lack, in place.
 
@@ -463,7 +514,7 @@ def _add_border(
     span = np.diff(points, axis=1).reshape(-1, 3)
     middles = (0.5 * (points[:, 1:] + points[:, :-1])).reshape(-1, 3)
     length = np.linalg.norm(span, axis=1)
-    radii = node_radii(spec.struts, middles, infill.placement)
+    radii = radii_at(middles)
     volume = np.repeat(bars.shares, pieces) * length * np.pi * radii**2
     sizes = volume * young
     bent = sizes * 3.0 * radii**2 / (pieces * length) ** 2
@@ -537,7 +588,18 @@ def homogenised_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     rows = [
         ("elements", f"{report['elements']:,} of {edge:.3g} mm"),
         ("cells across", f"{report['cells_across']:.3g} where it is thickest"),
+        ("mass", f"{report['mass_g']:.4g} g"),
     ]
+    if "field" in report:
+        field = report["field"]
+        first, uses = field["steps"][0], field["uses"]
+        told = f"{field['thinnest_mm']:.3g} to {field['thickest_mm']:.3g} mm"
+        if uses:
+            used = ", ".join(f"{value:.0%} of {name}" for name, value in uses.items())
+            told += f"; {used}, at {report['mass_g'] / first['mass_g']:.3g} times the mass"
+        else:
+            told += f"; forces do {field['work_over_first']:.3g} of their work on even ones"
+        rows.append(("radii or thicknesses", told))
     for case in report["cases"]:
         rows.append(
             (

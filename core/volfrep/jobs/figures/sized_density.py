@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The density that sizing wants: radii that struts were sized to, as percents of a solid.
+"""The density that sizing wants: radii or thicknesses that were sized, as percents of a solid.
 
-A slicer's infill is no strut lattice: what is taken over is how much of the material goes where.
+A slicer's infill is no such lattice: what is taken over is how much of the material goes where.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from ...mechanics.catalogue import catalogue
 from ...mechanics.density import relative_density
 from ...util.errors import VolfrepError
 from ...util.types import Floats
+from ..kinds import lattice_kind
 
 #: Radii at which the density of a cell that the catalogue does not know is computed.
 _PLACES = 5
@@ -44,14 +45,15 @@ def sized_densities(spec: LatticeSpec) -> tuple[PointField, str]:
             "This lattice has no radii of a sizing: size it first, or give the specification that "
             "sizing has written."
         )
-    if cell is None or spec.size_grading is not None or spec.cell_map is not None:
+    if spec.size_grading is not None or spec.cell_map is not None:
         raise VolfrepError(
-            "Densities are known of sized struts in cubic cells of one size: leave cell gradings, "
-            "maps and other kinds of lattice out."
+            "Densities are known of sized struts and walls in cubic cells of one size: leave cell "
+            "gradings and maps out."
         )
     radii = grading.radii(points.points, np.zeros((2, 3)), lambda at: np.zeros(len(at)))
     ratios = radii / spec.cell_size
-    percent = np.minimum(100.0 * _densities(cell, ratios), MOST)
+    found = lattice_kind(spec).densities(radii) if cell is None else _densities(cell, ratios)
+    percent = np.minimum(100.0 * found, MOST)
     low, high = float(percent.min()), float(percent.max())
     high = max(high, low + 1e-3)
     field = PointField(points.points, percent, source=f"density of {points.source}")

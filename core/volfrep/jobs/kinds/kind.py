@@ -341,6 +341,16 @@ class LatticeKind(ABC):
         """
         return self.spec
 
+    def densities(self, thickness: Floats) -> Floats:
+        """(n,) relative densities of the endless lattice of walls of (n,) thicknesses, mm.
+
+        Raises:
+            VolfrepError: it has no walls.
+        """
+        raise VolfrepError(
+            "Densities are known of sized struts and walls in cubic cells: choose such a cell."
+        )
+
     def with_fixed_struts(self) -> LatticeSpec:
         """The specification whose nodes and struts stay the same whatever radii it is given."""
         return self.spec

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -32,6 +32,7 @@ from ...tpms.widths import measure_widths
 from ...trim.culling import KeptOctants, OctantRoles, cull, keep_all
 from ...util.errors import VolfrepError
 from ...util.progress import Monitor
+from ...util.types import Floats
 from .. import octant_guard as guard
 from ..finer import until_sound
 from ..part_depth import PartDepth, Preview
@@ -48,12 +49,16 @@ from ..tpms.octants import (
     tpms_of,
 )
 from ..tpms.stiffness import solve_tpms_stiffness, tpms_modulus
+from ..tpms.symmetry import is_mirror_symmetric
+from ..tpms.voxels import tpms_density
 from .kind import UNDRAWN, EndlessRequest, LatticeKind
 from .octant_block import LaidBlock, OctantBlock
 from .octant_lattice import OctantLattice
 
 #: Points for the table, as a power of 2.
 POINTS = FINE - 3
+#: Thicknesses of which the density is computed, for those between.
+KNOWN = 5
 
 
 class TpmsKind(LatticeKind):
@@ -62,6 +67,17 @@ class TpmsKind(LatticeKind):
     def fill(self, part: PartDomain) -> TpmsLattice:
         """The walls in a part."""
         return TpmsLattice(part)
+
+    def densities(self, thickness: Floats) -> Floats:
+        """As of `LatticeKind`, straight between known ones."""
+        spec = self.spec
+        known = np.linspace(thickness.min(), max(thickness.max(), 1.05 * thickness.min()), KNOWN)
+        values = []
+        for value in known.tolist():
+            wall = replace(spec.wall, thickness=value)
+            solid = TpmsSolid.of(surface_of(spec), wall, spec.cell_size)
+            values.append(tpms_density(solid, octant=is_mirror_symmetric(solid))[0])
+        return np.asarray(np.interp(thickness, known, values))
 
     def block(self, count: Sequence[int]) -> TpmsBlock:
         """The walls of a block of cells."""

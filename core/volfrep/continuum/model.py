@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 from scipy import ndimage
-from scipy.sparse import csr_matrix
+from scipy.sparse import csr_matrix, diags
 
 from ..loads.load_cases import LoadCase
 from ..loads.nodal_loads import nodes_in
@@ -259,23 +259,27 @@ def conduct(
     temperatures: Sequence[tuple[Region, float]],
     conductivity: float,
     powers: Sequence[tuple[Region, float]] = (),
+    films: Sequence[tuple[Region, float, float]] = (),
 ) -> tuple[Floats, Floats]:
     """Steady heat between regions of given temperatures, and through others; none lost elsewhere.
+
+    A film's conductance is lumped at the nodes of its region, by their parts of its area.
 
     Args:
         model: the part.
         temperatures: regions and what each is held at, K or degrees C.
         conductivity: of the solid, W/(m K).
         powers: regions and the W that flow into the part through each.
+        films: regions beside a fluid, its temperature, and W/(m2 K) between the two.
 
     Returns:
-        (n,) temperatures of the nodes, and (temperatures,) W that each of these regions gives.
+        (n,) temperatures of the nodes, and (temperatures + films,) W that each of these gives.
 
     Raises:
         VolfrepError: nothing of the part lies in a region, there are none, or a piece of the part
             hangs on none that is held.
     """
-    if not temperatures or len(temperatures) + len(powers) < 2:
+    if not (temperatures or films) or len(temperatures) + len(powers) + len(films) < 2:
         raise VolfrepError("Give two regions or more, one of them with its temperature.")
     count = len(model.nodes)
     own = conductivity * 1e-3 * model.conductivity[:, None, None] * np.eye(3)
@@ -286,6 +290,15 @@ def conduct(
     value, fixed_by, given = np.zeros(count), np.full(count, -1), np.zeros(count)
     for region, power in powers:
         given += power * model.loaded.weights_of(region)
+    own_films = []
+    for region, temperature, film in films:
+        area = model.loaded.area_of(region)
+        if area == 0.0:
+            raise VolfrepError(f"{region} has no area for a film: give a face.")
+        passed = film * 1e-6 * area * model.loaded.weights_of(region)
+        own_films.append((passed, temperature))
+        matrix = matrix + diags(passed)
+        given += temperature * passed
     for k, (region, temperature) in enumerate(temperatures):
         surface = np.zeros(len(model.loaded.body.nodes), bool)
         surface[nodes_in(model.loaded.body, region)] = True
@@ -300,4 +313,6 @@ def conduct(
             "The heat's equations did not converge: do the regions hang together?"
         ) from error
     flow = matrix @ value - given
-    return value, np.array([flow[fixed_by == k].sum() for k in range(len(temperatures))])
+    gives = [float(flow[fixed_by == k].sum()) for k in range(len(temperatures))]
+    gives += [float(passed @ (temperature - value)) for passed, temperature in own_films]
+    return value, np.array(gives)

@@ -134,9 +134,10 @@ class HomogenisedPart(Shown):
         temperatures: Sequence[tuple[Any, float]],
         conductivity: float,
         powers: Sequence[tuple[Any, float]] = (),
+        films: Sequence[tuple[Any, float, float]] = (),
     ) -> tuple[Floats, Floats]:
         """Steady heat between regions; see `continuum.model.conduct`."""
-        return conduct(self.model, temperatures, conductivity, powers)
+        return conduct(self.model, temperatures, conductivity, powers, films)
 
 
 def check_homogenised_file(path: str | os.PathLike[str]) -> None:
@@ -261,15 +262,24 @@ def _heat(model: ContinuumModel, loads: LoadCases) -> tuple[Floats | None, list[
     """(n,) temperatures, and what each region has and gives; None and nothing without heat."""
     if not loads.heat or loads.conductivity is None:
         return None, []
-    region_temperatures = [
-        (one.region, one.temperature) for one in loads.heat if one.temperature is not None
-    ]
-    flows = [(one.region, one.power) for one in loads.heat if one.power is not None]
-    warm, given = conduct(model, region_temperatures, loads.conductivity, flows)
-    gives = iter(given.tolist())
+    heat = loads.heat
+    fixed = [one for one in heat if one.temperature is not None and one.film is None]
+    films = [one for one in heat if one.film is not None]
+    warm, given = conduct(
+        model,
+        [(one.region, one.temperature) for one in fixed if one.temperature is not None],
+        loads.conductivity,
+        [(one.region, one.power) for one in heat if one.power is not None],
+        [
+            (one.region, one.temperature, one.film)
+            for one in films
+            if one.temperature is not None and one.film is not None
+        ],
+    )
+    gives = dict(zip(map(id, [*fixed, *films]), given.tolist(), strict=True))
     found = []
-    for one in loads.heat:
-        power = one.power if one.power is not None else next(gives)
+    for one in heat:
+        power = one.power if one.power is not None else gives[id(one)]
         mean = float(np.einsum("n,n->", model.loaded.weights_of(one.region), warm))
         found.append({"name": one.name, "temperature": mean, "power_w": power})
     return warm, found

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..mechanics.materials import SolidMaterial
 from ..util.errors import VolfrepError
+from ..util.numbers import number
 from .regions import Region, Vector
 
 #: A cone's directions lie no farther apart than so, degrees; and so much of what is linear in the
@@ -128,24 +129,32 @@ class Mass:
 
 @dataclass(frozen=True)
 class Heat:
-    """A region that is held at a temperature, or through which heat flows into the part.
+    """A region at a temperature, beside a fluid, or through which heat flows into the part.
 
     Attributes:
         region: where.
-        temperature: K or degrees C; None where heat flows.
+        temperature: K or degrees C, of it, or of the fluid; None where heat flows.
         power: W, the whole of it, by area; negative flows out.
         name: for messages and reports.
+        film: W/(m2 K), the coefficient between region and fluid; None where there is no fluid.
     """
 
     region: Region
     temperature: float | None = None
     power: float | None = None
     name: str = "heat"
+    film: float | None = None
 
     def __post_init__(self) -> None:
         given = [value for value in (self.temperature, self.power) if value is not None]
         if len(given) != 1 or not math.isfinite(given[0]):
             raise VolfrepError(f"'{self.name}' needs a temperature or a power: give one of them.")
+        if self.film is not None:
+            number(f"film of '{self.name}'", self.film, "W/(m2 K)", positive=True)
+            if self.temperature is None:
+                raise VolfrepError(
+                    f"The film of '{self.name}' is towards a fluid: give the fluid's temperature."
+                )
 
 
 @dataclass(frozen=True)

@@ -77,7 +77,7 @@ _SUPPORT = ("name", *_REGION, "fixed", "x", "y", "z")
 _LOAD = ("name", *_REGION, *_LOADS, "at", "cone")
 _CASE = ("name", "acceleration", "temperature", "support", "load")
 _MASS = ("name", *_REGION, "mass")
-_HEAT = ("name", *_REGION, "temperature", "power")
+_HEAT = ("name", *_REGION, "temperature", "power", "film")
 _FILE = (
     "material", "yield_stress", "expansion", "reference", "conductivity", "support", "mass",
     "heat", "case",
@@ -178,7 +178,7 @@ class _Reader:
             _known(table, _HEAT, place)
             values = {
                 key: _number(table[key], f"{place}, {key}")
-                for key in ("temperature", "power")
+                for key in ("temperature", "power", "film")
                 if key in table
             }
             with _at(place):

@@ -190,6 +190,14 @@ class Loaded:
         share = share_of(self.body, region)
         return np.asarray(self._weights(self.body.nodes[share.nodes]).T @ share.weights)
 
+    def area_of(self, region: Region) -> float:
+        """mm2 that a region takes of the surface; 0 where it takes nodes alone.
+
+        Raises:
+            VolfrepError: it takes nothing.
+        """
+        return share_of(self.body, region).area
+
     def nodes_at(self, fixed: Bools) -> tuple[Ints, Ints]:
         """Nodes that lie on fixed places of the surface, and the surface's node that each is at."""
         if not fixed.any():

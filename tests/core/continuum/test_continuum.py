@@ -205,6 +205,34 @@ def test_heat_that_flows_in_at_an_end_warms_lattice_and_skin():
         solve_struts(block(60, 30, 30), spec, loads)
 
 
+def test_a_film_takes_heat_as_its_resistance_behind_the_bar_says():
+    """Closed form: bar and film one after the other; a slender fin between lattice and air."""
+    spec = LatticeSpec("Octet", strut_radius=0.8, cell_size=10, shell=0)
+    share = cell_law(spec).conductivity[0]
+    chip, air = Heat(end(0), power=1.0), Heat(end(60), temperature=20.0, film=50.0, name="air")
+    loads = LoadCases(PA12, (loaded(60),), heat=(chip, air), conductivity=20.0)
+    made = homogenise_part(block(60, 30, 30), spec, loads, element=5)
+    warm, cool = made.report["heat"]
+    outside = 20.0 + 1.0 / (50e-6 * 900)
+    assert cool["power_w"] == pytest.approx(-1.0, rel=1e-4)
+    assert cool["temperature"] == pytest.approx(outside, rel=1e-3)
+    inside = outside + 60 / (20e-3 * share * 900)
+    assert warm["temperature"] == pytest.approx(inside, rel=5e-3)
+    sides = [InPlane((0, y, 0), (0, 1, 0)) for y in (0, 10)]
+    sides += [InPlane((0, 0, z), (0, 0, 1)) for z in (0, 10)]
+    films = [(side, 20.0, 5.0) for side in sides]
+    fin = homogenise_part(block(120, 10, 10), spec, LoadCases(PA12, (loaded(120),)), element=5)
+    values, gives = fin.conduct([(end(0), 100.0)], 20.0, (), films)
+    along = np.sqrt(5e-6 * 40 / (20e-3 * share * 100))
+    expected = 80 * np.sqrt(5e-6 * 40 * 20e-3 * share * 100) * np.tanh(along * 120)
+    assert gives[0] == pytest.approx(expected, rel=0.01)
+    assert gives.sum() == pytest.approx(0.0, abs=1e-4 * expected)
+    tip = np.abs(fin.model.nodes[:, 0] - 120) < 1e-6
+    assert values[tip].mean() - 20 == pytest.approx(80 / np.cosh(along * 120), rel=0.02)
+    with pytest.raises(VolfrepError, match="give the fluid's temperature"):
+        Heat(end(0), power=1.0, film=5.0)
+
+
 def test_a_bar_that_is_warm_at_one_end_grows_without_stress_and_presses_where_it_is_held():
     """Closed form: by the mean of its temperature; held, by E times that strain at most."""
     warm = (Heat(end(0), temperature=20.0), Heat(end(60), temperature=120.0))

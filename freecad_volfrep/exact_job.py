@@ -12,7 +12,7 @@ from volfrep.grid.strut_graph import Wireframe
 from volfrep.mesh.triangle_mesh import TriangleMesh
 
 from .bridge.exact import write_exact
-from .bridge.trimmed import check_volume, exact_part, plane_wall, write_shape
+from .bridge.trimmed import check_volume, exact_part, faceted_shape, write_shape
 
 
 def run(arrays: dict[str, Any], expected: float | None, target: str) -> float:
@@ -41,7 +41,7 @@ def run(arrays: dict[str, Any], expected: float | None, target: str) -> float:
         if expected is not None:
             check_volume(volume, expected)
         return volume
-    outer = plane_wall(meshes["outer"]) if "outer" in meshes else None
-    part = exact_part(lattice, plane_wall(meshes["inner"]), outer, expected)
+    outer = faceted_shape(meshes["outer"]) if "outer" in meshes else None
+    part = exact_part(lattice, faceted_shape(meshes["inner"]), outer, expected)
     write_shape(part, target)
     return float(part.Volume)

@@ -15,7 +15,7 @@ import Part
 
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.reports.estimate import refuse_wall
+from volfrep.reports.estimate import refuse_boundary
 from volfrep.util.errors import VolfrepError
 from volfrep.util.files import replacing
 from volfrep.util.progress import Monitor
@@ -51,29 +51,29 @@ def one_solid(shape: Part.Shape, mesh: TriangleMesh) -> Part.Shape | None:
     return solid if abs(solid.Volume / mesh.volume - 1.0) < VOLUME_TOLERANCE else None
 
 
-def offset_wall(shape: Part.Shape, shell: float, domain: TriangleMesh) -> Part.Shape | None:
+def offset_shape(shape: Part.Shape, shell: float, domain: TriangleMesh) -> Part.Shape | None:
     """A solid's inner wall by OpenCASCADE, where that agrees with the mesh's; None elsewhere."""
     try:
         if shell > 0:
-            wall = shape.makeOffsetShape(
+            offset = shape.makeOffsetShape(
                 -shell, _OFFSET_TOLERANCE, False, False, _SKIN, _INTERSECTION
             )
         else:
-            wall = shape
-        solid = _one_solid(wall)
+            offset = shape
+        solid = _one_solid(offset)
     except (Part.OCCError, RuntimeError, ValueError):  # what OpenCASCADE cannot offset
         return None
     near = abs(solid.Volume / domain.volume - 1.0) < VOLUME_TOLERANCE
     return solid if near and solid.isValid() else None
 
 
-def plane_wall(mesh: TriangleMesh) -> Part.Shape:
+def faceted_shape(mesh: TriangleMesh) -> Part.Shape:
     """A mesh as a solid, its coplanar triangles joined to faces.
 
     Raises:
         VolfrepError: OpenCASCADE does not cut at so many triangles, or it is not closed.
     """
-    refuse_wall(len(mesh.triangles))
+    refuse_boundary(len(mesh.triangles))
     return faceted_solid(mesh).removeSplitter()
 
 

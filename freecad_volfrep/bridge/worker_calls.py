@@ -26,7 +26,7 @@ from volfrep.util.progress import Monitor, ProgressCallback
 
 from .exact import exact_lattice, joint_solid, write_exact
 from .faceted import faceted_solid
-from .trimmed import check_volume, exact_part, offset_wall, one_solid, plane_wall, write_shape
+from .trimmed import check_volume, exact_part, faceted_shape, offset_shape, one_solid, write_shape
 
 #: A shape as OpenCASCADE's own binary format has it: bytes.
 Packed = NDArray[np.uint8]
@@ -147,7 +147,7 @@ def packed_joints(
     monitor, lattice = Monitor(progress), job.lattice
     refuse_overlaps(lattice)
     joints = distinct_joints(lattice)
-    inner, outer = (None, None) if job.domain is None else _walls(job)
+    inner, outer = (None, None) if job.domain is None else _boundaries(job)
     kinds: list[tuple[Part.Shape, NDArray[np.float64]]] = []
     single: list[tuple[str, Part.Shape]] = []
     volume = 0.0
@@ -188,14 +188,14 @@ def packed_joints(
 
 def _exact(job: ExactJob, monitor: Monitor) -> Part.Shape:
     if job.domain is not None:
-        return exact_part(job.lattice, *_walls(job), job.expected, monitor)
+        return exact_part(job.lattice, *_boundaries(job), job.expected, monitor)
     shape = exact_lattice(job.lattice, monitor)
     if job.expected is not None:
         check_volume(shape.Volume, job.expected)
     return shape
 
 
-def _walls(job: ExactJob) -> tuple[Part.Shape, Part.Shape | None]:
+def _boundaries(job: ExactJob) -> tuple[Part.Shape, Part.Shape | None]:
     """The inner and the outer wall as solids; None for the outer one where there is no skin.
 
     Raises:
@@ -206,9 +206,9 @@ def _walls(job: ExactJob) -> tuple[Part.Shape, Part.Shape | None]:
     base = None if job.base is None else one_solid(unpack(job.base), job.solid)
     inner = None
     if base is not None and job.shell is not None:
-        inner = offset_wall(base, job.shell, job.domain)
+        inner = offset_shape(base, job.shell, job.domain)
     if inner is None:
-        inner = plane_wall(job.domain)
+        inner = faceted_shape(job.domain)
     if not job.with_skin:
         return inner, None
-    return inner, plane_wall(job.solid) if base is None else base
+    return inner, faceted_shape(job.solid) if base is None else base

@@ -85,6 +85,6 @@ def share_depths() -> None:
 
 def share() -> None:
     """From now on, in this process."""
-    domain.inner_wall = _shared(domain.inner_wall, _wall)
+    domain.find_cavity = _shared(domain.find_cavity, _wall)
     strut_block.mesh_octants = strut_lattice.mesh_octants = _shared(mesh_octants, _octants)
     share_depths()

@@ -91,7 +91,7 @@ def test_an_analysis_of_beams_is_complete_but_for_its_constraints(doc, infill):
     groups = {mesh.getGroupName(k): mesh.getGroupElements(k) for k in mesh.Groups}
     frame = axes_of(infill)
     assert len(groups["JOINTS"]) == len(frame.wireframe.nodes)
-    assert len(groups["SKIN"]) == np.count_nonzero(frame.on_wall)
+    assert len(groups["SKIN"]) == np.count_nonzero(frame.on_boundary)
     assert len(named(doc, "SkinJoints").Shape.Vertexes) == len(groups["SKIN"])
     assert mesh.EdgeCount > 6 * infill.Struts
     (section,) = [o for o in analysis.Group if o.Name.startswith("Section")]
@@ -150,11 +150,11 @@ def test_beams_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     assert len(freecad) == 6
 
     frame = axes_of(infill)
-    model, _ = fitted_beams(frame.wireframe, frame.on_wall, LIBRARY["CVC"], 20.0)
+    model, _ = fitted_beams(frame.wireframe, frame.on_boundary, LIBRARY["CVC"], 20.0)
     place = model.nodes[: model.joints, 0]
     fixed, loaded = np.flatnonzero(place < 0.01), np.flatnonzero(place > 60)
     step = StaticStep(fixed, loaded, (200.0, 0, 0))
-    write_beams(model, tmp_path / "own.inp", Material(), on_wall=frame.on_wall, step=step)
+    write_beams(model, tmp_path / "own.inp", Material(), on_boundary=frame.on_boundary, step=step)
     own = solve(tmp_path / "own.inp")[loaded, 0]
     # Round three-noded beams there, square two-noded ones here, each with ends of its own.
     assert freecad.mean() == pytest.approx(own.mean(), rel=0.06)

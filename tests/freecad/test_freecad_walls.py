@@ -89,7 +89,7 @@ def test_the_preview_and_the_print_check_know_walls(box) -> None:
         doc, box, CellType="Gyroid", CellSize=8, WallThickness=0.6, ShellThickness=1, Resolution=24
     )
     shown = LivePreview(infill).show()
-    assert len(shown.preview.wall.triangles) > 1000
+    assert len(shown.preview.surface.triangles) > 1000
     assert shown.stiffness is None
     doc.recompute()
     assert shown.preview.relative_density == pytest.approx(infill.RelativeDensity, rel=0.06)

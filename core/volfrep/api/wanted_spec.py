@@ -67,7 +67,7 @@ def specified(
     try:
         if any(name not in plain and is_key(name, parameters[name]) for name in parameters):
             return spec_by_keys(spec, parameters, young)
-        parameters = _with_wall(_with_target(parameters, spec, young), spec)
+        parameters = _with_sheet(_with_target(parameters, spec, young), spec)
         if spec is None:
             return LatticeSpec(**parameters)
         return dataclasses.replace(spec, **parameters) if parameters else spec
@@ -82,7 +82,7 @@ def accepted() -> set[str]:
     return KEYS | FIELDS
 
 
-def _with_wall(parameters: dict[str, Any], spec: LatticeSpec | None) -> dict[str, Any]:
+def _with_sheet(parameters: dict[str, Any], spec: LatticeSpec | None) -> dict[str, Any]:
     """The parameters with a `Wall` in place of what describes one."""
     given = {_WALL[name]: value for name, value in parameters.items() if name in _WALL}
     rest = {name: value for name, value in parameters.items() if name not in _WALL}

@@ -231,7 +231,7 @@ class Boundary:
         """Whether the wall of its domain cuts the lattice, with a skin or without."""
         return self.cut == "trim"
 
-    def meets_wall(self, skin: Skin | None) -> bool:
+    def cuts_struts(self, skin: Skin | None) -> bool:
         """Whether a wall cuts the struts: that of their domain or, of whole cells, the skin's."""
         return self.is_trimmed or skin is not None
 

@@ -81,7 +81,7 @@ def rigid_ends(length: float) -> JointLaw:
 
 def beam_model(
     wireframe: Wireframe,
-    on_wall: Bools | None = None,
+    on_boundary: Bools | None = None,
     *,
     joint_length: float = JOINT_LENGTH,
     joint_law: JointLaw | None = None,
@@ -92,7 +92,7 @@ def beam_model(
 
     Args:
         wireframe: the struts, mm.
-        on_wall: (n,) bool, nodes on a wall: a strut that ends there alone, not in a joint, gets
+        on_boundary: (n,) bool, nodes on a wall: a strut that ends there alone, not in a joint, gets
             no stiff end there. None: all are joints.
         joint_length: of rigid ends, in units of the radius there; 0 for bare beams.
         joint_law: the ends that were fitted to the cell, in place of rigid ones.
@@ -119,9 +119,9 @@ def beam_model(
     section, at_ends = _sections(wireframe.radii.ravel(), radius_tolerance)
     stretch = np.array([profile(radius).length for radius in at_ends.tolist()])[section]
     stiff = np.minimum(stretch.reshape(-1, 2) * wireframe.radii, LONGEST_JOINT * length[:, None])
-    if on_wall is not None:
+    if on_boundary is not None:
         alone = np.bincount(wireframe.struts.ravel(), minlength=len(wireframe.nodes)) == 1
-        stiff[(on_wall & alone)[wireframe.struts]] = 0.0
+        stiff[(on_boundary & alone)[wireframe.struts]] = 0.0
     flexible = length - stiff.sum(axis=1)
     shortest = SHORTEST_ELEMENT * wireframe.radii.max(axis=1)
     middle = np.clip(np.floor(flexible / shortest), 1, elements_per_strut).astype(np.int64)
@@ -170,7 +170,7 @@ def ends_law(cell: UnitCell | None, cell_size: float, section: str) -> JointLaw:
 
 def fitted_beams(
     wireframe: Wireframe,
-    on_wall: Bools | None,
+    on_boundary: Bools | None,
     cell: UnitCell | None,
     cell_size: float,
     *,
@@ -181,7 +181,7 @@ def fitted_beams(
 
     Args:
         wireframe: the struts, mm.
-        on_wall: as for `beam_model`.
+        on_boundary: as for `beam_model`.
         cell: the unit cell; one that is not the library's is fitted first, which takes seconds.
             None for a network, whose ends are rigid.
         cell_size: L, mm.
@@ -196,18 +196,18 @@ def fitted_beams(
     profile = ends_law(cell, cell_size, section)
     if cell is None:
         model = beam_model(
-            wireframe, on_wall, joint_law=profile, elements_per_strut=elements_per_strut
+            wireframe, on_boundary, joint_law=profile, elements_per_strut=elements_per_strut
         )
         return model, (OF_NETWORK,)
     try:
         model = beam_model(
-            wireframe, on_wall, joint_law=profile, elements_per_strut=elements_per_strut
+            wireframe, on_boundary, joint_law=profile, elements_per_strut=elements_per_strut
         )
         return model, _too_thick(wireframe, cell_size) + _misfit(
             wireframe, cell, cell_size, section
         )
     except VolfrepError as error:
-        model = beam_model(wireframe, on_wall, elements_per_strut=elements_per_strut)
+        model = beam_model(wireframe, on_boundary, elements_per_strut=elements_per_strut)
         return model, (f"The beams have rigid ends of {JOINT_LENGTH:g} radii. {error}",)
 
 

@@ -48,7 +48,7 @@ def write_beams(
     path: str | os.PathLike[str],
     material: Material | None = None,
     *,
-    on_wall: NDArray[np.bool_] | None = None,
+    on_boundary: NDArray[np.bool_] | None = None,
     step: StaticStep | None = None,
 ) -> None:
     """Write beams as elements B31.
@@ -66,7 +66,7 @@ def write_beams(
         model: the beams.
         path: of the file (.inp); an old file stays if anything goes wrong.
         material: of the struts.
-        on_wall: (joints,) bool, nodes that the skin holds.
+        on_boundary: (joints,) bool, nodes that the skin holds.
         step: what to solve; None leaves constraints and loads to whoever includes the deck.
 
     Raises:
@@ -75,8 +75,8 @@ def write_beams(
     material = material or Material()
     joints = np.arange(model.joints)
     sets = {"JOINTS": joints, **sides(model.nodes[: model.joints])}
-    if on_wall is not None:
-        sets["SKIN"] = np.flatnonzero(on_wall)
+    if on_boundary is not None:
+        sets["SKIN"] = np.flatnonzero(on_boundary)
     groups = _groups(model)
     with replacing(path) as file:
         file.writelines(_opening("beams with stiff ends", model.nodes, sets))

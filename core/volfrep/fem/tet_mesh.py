@@ -35,7 +35,7 @@ VOLUME_TOLERANCE = 1e-6
 #: wing small moves take much.
 VOLUME_WARNED = 2e-3
 #: Nodes are on a wall within this part of its box's diagonal: what single precision keeps.
-WALL_TOLERANCE = 1e-6
+SURFACE_TOLERANCE = 1e-6
 #: Gmsh copes with facets that have no angle below this, degrees.
 NEEDLE = 2.0
 #: Needles and caps are mended where no move takes the surface farther than this part of the mesh's
@@ -230,13 +230,13 @@ def mend_surface(
     return best
 
 
-def nodes_on(filled: TetrahedralMesh, wall: TriangleMesh) -> Ints:
+def nodes_on(filled: TetrahedralMesh, surface: TriangleMesh) -> Ints:
     """Rows of the nodes that lie on a surface, within rounding and what mending moved."""
-    low, high = wall.bounds
-    near = max(WALL_TOLERANCE * float(np.linalg.norm(high - low)), filled.moved)
+    low, high = surface.bounds
+    near = max(SURFACE_TOLERANCE * float(np.linalg.norm(high - low)), filled.moved)
     # Nodes inside may be as near as that.
     rows = outer_nodes(filled)
-    result: Ints = rows[closest_points(wall, filled.nodes[rows])[1] < near]
+    result: Ints = rows[closest_points(surface, filled.nodes[rows])[1] < near]
     return result
 
 

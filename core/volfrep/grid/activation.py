@@ -131,13 +131,13 @@ def active_cells(
         return np.asarray(active & (around > 1), np.bool_)
     if rule not in ("touching", "inside"):
         raise VolfrepError(f"There is no activation '{rule}': choose touching, centre or inside.")
-    crossed = crossed_cells(grid, wall_corners(domain, mapping), monitor)
+    crossed = crossed_cells(grid, boundary_corners(domain, mapping), monitor)
     if rule == "inside":
         return active & ~crossed
     return active | (crossed if usable is None else crossed & usable)
 
 
-def wall_corners(mesh: TriangleMesh, mapping: CoordinateMap | None) -> Floats:
+def boundary_corners(mesh: TriangleMesh, mapping: CoordinateMap | None) -> Floats:
     """(m, 3, 3) corners of a mesh's triangles in lattice space."""
     if mapping is None:
         return mesh.vertices[mesh.triangles]

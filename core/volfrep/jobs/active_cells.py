@@ -76,7 +76,7 @@ def find_active_cells(
     mapping = part_map(grid, solid.bounds)
     whole, origin = solid, grid.origin
     if domain.is_open:  # octants are wanted beyond the part, too; the cells still begin at it
-        whole = concatenate(solid, domain.wall)
+        whole = concatenate(solid, domain.boundary)
         x, y, z = solid.bounds[0]
         origin = origin or (float(x), float(y), float(z))
     if mapping is None:
@@ -103,4 +103,4 @@ def roles_of(
 ) -> OctantRoles:
     """Where the octants of a part's cells lie with respect to its wall."""
     mapping = part_map(grid, solid.bounds)
-    return octant_roles(domain.wall, cells.padded.cells, monitor, mapping, margin)
+    return octant_roles(domain.boundary, cells.padded.cells, monitor, mapping, margin)

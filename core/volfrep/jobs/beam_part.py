@@ -72,7 +72,7 @@ def exact_struts(
     return infill.lattice_beams.lattice, infill.cavity if spec.is_cut else None
 
 
-def joints_at_wall(
+def joints_at_boundary(
     lattice: Wireframe,
     domain: TriangleMesh | None,
     *,

@@ -197,8 +197,8 @@ class Infill:
         """The struts' axes, cut where they leave the domain."""
         self.kind.refuse_beams()
         is_cut = self.placement.is_cut
-        wall = self.cavity if is_cut else None
-        return axes_of(self.struts, wall, self._held(is_cut=is_cut), self.domain.openings)
+        boundary = self.cavity if is_cut else None
+        return axes_of(self.struts, boundary, self._held(is_cut=is_cut), self.domain.openings)
 
     @property
     def staying(self) -> Bools:
@@ -221,9 +221,9 @@ class Infill:
     def _held(self, *, is_cut: bool) -> KeptStruts:
         """Which pieces of the struts stay, where a wall cuts them or where they are whole."""
         if is_cut not in self._held_struts:
-            wall = self.cavity if is_cut else None
+            boundary = self.cavity if is_cut else None
             self._held_struts[is_cut] = find_kept_struts(
-                self.struts, wall, has_skin=self.spec.skin is not None,
+                self.struts, boundary, has_skin=self.spec.skin is not None,
                 bodies=max(1, inspect(self.solid).quality.bodies),
                 openings=self.domain.openings, keep_all=self.spec.keep_pieces,
             )  # fmt: skip

@@ -47,7 +47,7 @@ class Preview:
         mass: in g.
         grid_lines: (l, 3) starts and ends of the edges of the active cells, mm.
         spec: what is shown, with the radius that was found where there is a target.
-        wall: of walls, their surface as coarse as it is quick, in place of struts.
+        surface: of walls, their surface as coarse as it is quick, in place of struts.
     """
 
     start: Floats
@@ -61,7 +61,7 @@ class Preview:
     mass: float
     grid_lines: tuple[Floats, Floats]
     spec: LatticeSpec
-    wall: TriangleMesh | None = None
+    surface: TriangleMesh | None = None
 
 
 class PartDepth:

@@ -74,14 +74,14 @@ class PartDomain:
     @cached_property
     def finished_cavity(self) -> tuple[TrimmedSurface, Quality, tuple[str, ...]]:
         """That surface, its quality, and what is to be said of it."""
-        wall = TrimmedSurface(self.domain.mesh)
-        clean = tidy(wall, shortest_edge(self.solid), self.monitor)
+        boundary = TrimmedSurface(self.domain.mesh)
+        clean = tidy(boundary, shortest_edge(self.solid), self.monitor)
         return finish(clean, measure(clean.mesh), self.monitor, moved=False)
 
     @cached_property
     def placement(self) -> Placement:
         """Where the lattice lies in the part."""
-        is_cut = self.spec.ending.meets_wall(self.spec.skin)
+        is_cut = self.spec.ending.cuts_struts(self.spec.skin)
         return placement_in(self.solid, self.spec.grid, is_cut, self.monitor)
 
     @property

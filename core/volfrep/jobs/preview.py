@@ -77,7 +77,7 @@ class ShownCells:
 
 def place_lattice(solid: TriangleMesh, spec: LatticeSpec) -> Placement:
     """Where the lattice lies in a solid."""
-    return placement_in(solid, spec.grid, spec.ending.meets_wall(spec.skin), Monitor())
+    return placement_in(solid, spec.grid, spec.ending.cuts_struts(spec.skin), Monitor())
 
 
 def show_cells(

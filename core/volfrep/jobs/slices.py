@@ -19,7 +19,7 @@ from ..io.write.layer_folder import replacing_layers
 from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..slicing.layers import Section, SolidParts, each_section, layer_heights, whole
 from ..slicing.raster import pixel_grid
-from ..trim.beam_model import deformed_struts, joined_wall
+from ..trim.beam_model import deformed_struts, joined_boundary
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
 from ..util.numbers import number
@@ -229,9 +229,9 @@ def _in_slabs(
     clip = None
     if has_skin or spec.ending.is_trimmed:
         clip = solid if has_skin or spec.skin is None else infill.cavity
-    wall = joined_wall(solid, infill.cavity, spec.skin) if has_skin and spec.skin else None
+    boundary = joined_boundary(solid, infill.cavity, spec.skin) if has_skin and spec.skin else None
     note = (
         f"The lattice has {cells:,} cells, so its struts were made layer by layer, and none "
         "was left out because it hangs on nothing.",
     )
-    return SolidParts(between, clip, wall, solid.bounds), infill.warnings + note
+    return SolidParts(between, clip, boundary, solid.bounds), infill.warnings + note

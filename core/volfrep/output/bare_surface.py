@@ -106,13 +106,13 @@ def bare_surface(
     monitor = Monitor(progress)
     infill = Infill(solid, _one_side(spec), monitor=monitor, cache=cache)
     mesh = infill.lattice.mesh
-    wall = infill.cavity if spec.with_skin or spec.skin is not None else solid
+    boundary = infill.cavity if spec.with_skin or spec.skin is not None else solid
     within = _ON_WALL * shortest_edge(solid)
-    at_wall = _near(wall, mesh.vertices, within)
-    flat = np.flatnonzero(at_wall[mesh.triangles].all(axis=1))
+    at_boundary = _near(boundary, mesh.vertices, within)
+    flat = np.flatnonzero(at_boundary[mesh.triangles].all(axis=1))
     middles = mesh.vertices[mesh.triangles[flat]].mean(axis=1)
     is_surface = np.ones(len(mesh.triangles), bool)
-    is_surface[flat[_near(wall, middles, within)]] = False
+    is_surface[flat[_near(boundary, middles, within)]] = False
     if not is_surface.any():
         raise VolfrepError(
             "No piece of the surface lies within the part: make the cells smaller, or move their "
@@ -126,15 +126,15 @@ def bare_surface(
     return BareSurface(surface, surface.area, rim, infill.warnings)
 
 
-def _near(wall: TriangleMesh, points: Floats, within: float) -> Bools:
+def _near(boundary: TriangleMesh, points: Floats, within: float) -> Bools:
     """(n,) which of (n, 3) points lie no farther from the wall, mm."""
-    spacing = float(np.linalg.norm(np.ptp(wall.bounds, axis=0))) / _SAMPLES_ALONG
-    index = index_surface(wall, spacing)
+    spacing = float(np.linalg.norm(np.ptp(boundary.bounds, axis=0))) / _SAMPLES_ALONG
+    index = index_surface(boundary, spacing)
     reach = within + 0.75 * index.spacing
     away = index.tree.query(points, distance_upper_bound=reach, workers=threads())[0]
     result: Bools = np.isfinite(away)
     some = np.flatnonzero(result)
-    result[some] = closest_points(wall, points[some])[1] <= within
+    result[some] = closest_points(boundary, points[some])[1] <= within
     return result
 
 

@@ -20,15 +20,15 @@ class BeamDeckWriter(Writer):
     def estimate(self, source: Source) -> Estimate:
         """As of `Writer`."""
         axes = source.axes
-        return estimate_beams(beam_model(axes.wireframe, axes.on_wall), source.choice)
+        return estimate_beams(beam_model(axes.wireframe, axes.on_boundary), source.choice)
 
     def write(self, source: Source, path: str | os.PathLike[str], settings: Settings) -> Written:
         """As of `Writer`."""
         spec, axes = source.spec, source.axes
         frame = axes.wireframe
-        model, warnings = fitted_beams(frame, axes.on_wall, spec.kind.cube, spec.cell_size)
+        model, warnings = fitted_beams(frame, axes.on_boundary, spec.kind.cube, spec.cell_size)
         settings.tell(estimate_beams(model, source.choice))
-        write_beams(model, path, settings.material, on_wall=axes.on_wall)
+        write_beams(model, path, settings.material, on_boundary=axes.on_boundary)
         warnings = axes.warnings + warnings + deformed_struts(spec.grid, spec.struts)
         row = ("struts", f"{len(frame.struts):,} between {len(frame.nodes):,} nodes, as beams")
         return Written(warnings, (row,))

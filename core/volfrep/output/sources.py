@@ -122,7 +122,7 @@ class FilledPart(_OfResult):
     def axes(self) -> Axes:
         """As of `Source`."""
         cut = self.infill.axes
-        return Axes(cut.wireframe, cut.on_wall, cut.warnings)
+        return Axes(cut.wireframe, cut.on_boundary, cut.warnings)
 
     @property
     def exact(self) -> ExactStruts:

@@ -13,8 +13,8 @@ from ..reports.estimate import (
     estimate_axes,
     estimate_exact,
     estimate_faceted,
+    refuse_boundary,
     refuse_inexact,
-    refuse_wall,
 )
 from ..trim.beam_model import deformed_struts
 from ..util.errors import VolfrepError
@@ -49,9 +49,11 @@ class ExactWriter(Writer):
     def settle(self, source: Source) -> tuple[Writer, tuple[str, ...]]:
         """Plane faces, before a lattice is meshed, where its wall is too much."""
         made_of = source.exact
-        walls = [wall for wall in (made_of.inner, made_of.outer) if wall is not None]
+        boundaries = [
+            boundary for boundary in (made_of.inner, made_of.outer) if boundary is not None
+        ]
         try:
-            refuse_wall(max((len(wall.triangles) for wall in walls), default=0))
+            refuse_boundary(max((len(boundary.triangles) for boundary in boundaries), default=0))
         except VolfrepError as error:
             return plane_faces(), (f"{error} {PLANE_FACES}",)
         return self, ()

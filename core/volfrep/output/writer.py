@@ -30,12 +30,12 @@ class Axes:
 
     Attributes:
         wireframe: nodes and struts, mm.
-        on_wall: (n,) bool, nodes at which a wall cuts them; None where none does.
+        on_boundary: (n,) bool, nodes at which a wall cuts them; None where none does.
         warnings: sentences for the user.
     """
 
     wireframe: Wireframe
-    on_wall: Bools | None
+    on_boundary: Bools | None
     warnings: tuple[str, ...] = ()
 
 

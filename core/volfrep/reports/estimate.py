@@ -165,7 +165,7 @@ def estimate_exact(
     return Estimate(what, seconds, found.megabytes, reading)
 
 
-def refuse_wall(triangles: int) -> None:
+def refuse_boundary(triangles: int) -> None:
     """Refuse a wall of so many triangles, at which exact surfaces would be cut.
 
     Raises:

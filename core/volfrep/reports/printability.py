@@ -182,7 +182,7 @@ def print_report(
     density: float = 1.0,
     domain: TriangleMesh | None = None,
     ball_mm: float | None = None,
-    walls_mm: tuple[float | None, float | None] = (None, None),
+    sheet_and_gap_mm: tuple[float | None, float | None] = (None, None),
 ) -> PrintReport:
     """Hold a part against a process.
 
@@ -195,7 +195,7 @@ def print_report(
         domain: closed mesh of what the lattice fills; struts outside do not count. None: all do.
         ball_mm: diameter of the largest ball that gets through the lattice (`largest_ball`); None
             where it is not known.
-        walls_mm: least thickness of walls and least gap between them (`LatticeKind.walls`).
+        sheet_and_gap_mm: least thickness of walls and least gap between them (`LatticeKind.walls`).
 
     Raises:
         VolfrepError: the build direction is no direction.
@@ -221,7 +221,7 @@ def print_report(
         thinnest, thinnest_at = 2.0 * float(radius[strut, piece]), _point(points[strut, piece])
     narrowest = narrowest_gap(lattice, present, LOOK_FOR * process.gap)
 
-    gap_mm = walls_mm[1] if narrowest is None else narrowest[0]
+    gap_mm = sheet_and_gap_mm[1] if narrowest is None else narrowest[0]
     gap_at = None if narrowest is None else _point(narrowest[1])
 
     angle = inclinations(lattice, up)
@@ -238,7 +238,7 @@ def print_report(
         strut_length_mm=float(length.sum()),
         thinnest_strut_mm=thinnest,
         thinnest_at=thinnest_at,
-        thinnest_wall_mm=walls_mm[0],
+        thinnest_wall_mm=sheet_and_gap_mm[0],
         narrowest_gap_mm=gap_mm,
         narrowest_at=gap_at,
         largest_ball_mm=ball_mm,

@@ -122,13 +122,13 @@ def _looked_at(
     crossings = depth.monitor.call(lambda: cross(part, negative[near], whole=False))
     new = find(known.names, crossings.edges.names) < 0
     known = _with_new(known, field, crossings, new)
-    wall = depth.monitor.call(lambda: _contoured(field, part, crossings, known))
+    surface = depth.monitor.call(lambda: _contoured(field, part, crossings, known))
     leaf = crossings.leaf_of_patch
     small = part.size[leaf] * field.unit < SMALL * depth.thickness
     # A halved leaf beside smaller ones may have none but known edges.
     fresh = changed[near][leaf]
     fresh[crossings.patch[new]] = True
-    stray = _strays(wall, fresh, depth) > np.where(small, STRAY_SMALL, STRAY)
+    stray = _strays(surface, fresh, depth) > np.where(small, STRAY_SMALL, STRAY)
     halve = np.bincount(leaf, minlength=len(part.size)) > 1
     halve[leaf[stray]] = True
     return near, known, halve & (part.size > FINEST)
@@ -183,12 +183,12 @@ def _contoured(
     return OffsetSurface(crossings, facets(crossings, vertices, anchor, normal))
 
 
-def _strays(wall: OffsetSurface, fresh: Bools, depth: Depth) -> Floats:
+def _strays(surface: OffsetSurface, fresh: Bools, depth: Depth) -> Floats:
     """(p,) how far the facets round each patch's vertex stray, if a fresh one (p,) is at them."""
-    vertices, triangles = wall.facets.mesh.vertices, wall.facets.mesh.triangles
+    vertices, triangles = surface.facets.mesh.vertices, surface.facets.mesh.triangles
     result = np.zeros(len(vertices))
     result[fresh] = np.abs(depth.strays(vertices[fresh]))
-    suspect = wall.facets.off[wall.facets.edge] > FLAT * STRAY * depth.thickness
+    suspect = surface.facets.off[surface.facets.edge] > FLAT * STRAY * depth.thickness
     suspect |= (result[triangles] > FLAT * STRAY).any(axis=1)
     near = triangles[suspect & fresh[triangles].any(axis=1)]
     for shares in LOOK_AT:

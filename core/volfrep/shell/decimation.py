@@ -23,23 +23,23 @@ TOLERANCE = 0.005
 SECANTS = 5
 
 
-def simplify(wall: OffsetSurface, field: DepthField) -> TriangleMesh:
+def simplify(surface: OffsetSurface, field: DepthField) -> TriangleMesh:
     """The wall with fewer facets, none of which run through each other.
 
     Where two polygons would have the same two corners they are replaced by fans. Without
     manifold3d all facets stay.
     """
     call, thickness = field.depth.monitor.call, field.depth.thickness
-    facets = _with_fans(wall, call(wall.crossings.doubled), field)
+    facets = _with_fans(surface, call(surface.crossings.doubled), field)
     if not has_manifold():
         return without_crossings(facets.mesh, thickness, field.depth.monitor)
     simple = call(partial(_simplify, facets.mesh, TOLERANCE * thickness))
     return without_crossings(simple, thickness, field.depth.monitor)
 
 
-def _with_fans(wall: OffsetSurface, cut: Bools, field: DepthField) -> Facets:
+def _with_fans(surface: OffsetSurface, cut: Bools, field: DepthField) -> Facets:
     """The wall's facets, with fans round the edges whose polygons have a cut segment."""
-    call, crossings = field.depth.monitor.call, wall.crossings
+    call, crossings = field.depth.monitor.call, surface.crossings
     edges = call(lambda: fan_edges(crossings, cut))
     low, high = (
         crossings.edges.low[edges].astype(np.float64),
@@ -55,7 +55,7 @@ def _with_fans(wall: OffsetSurface, cut: Bools, field: DepthField) -> Facets:
         low, a = np.where(as_low[:, None], nodes, low), np.where(as_low, value, a)
         high, b = np.where(as_low[:, None], high, nodes), np.where(as_low, b, value)
     points = field.point(nodes)
-    return call(lambda: with_fans(crossings, wall.facets, cut, points))
+    return call(lambda: with_fans(crossings, surface.facets, cut, points))
 
 
 def _simplify(mesh: TriangleMesh, tolerance: float) -> TriangleMesh:

@@ -15,7 +15,7 @@ from ..util.manifold import has_manifold, install_command
 from ..util.progress import Monitor
 from ..util.types import Bools
 from .depth import Depth, sheet_depth, thinnest_of
-from .offset import TOLERANCE, InnerWall, inner_wall, without_small
+from .offset import TOLERANCE, Cavity, find_cavity, without_small
 from .thickness_field import ThicknessField, thickness_field
 
 #: Rooms between a wall and bodies that are kept solid are filled where they are smaller than this,
@@ -29,14 +29,14 @@ class Domain:
 
     Attributes:
         mesh: its closed surface, inside the part or the part's own; empty where there is no room.
-        wall: closed surface that cuts the lattice: the same, but it reaches out of the part
+        boundary: closed surface that cuts the lattice: the same, but it reaches out of the part
             beyond faces that are left open.
         openings: the faces that are left open; None where the skin is closed.
         warnings: sentences for the user about the skin.
     """
 
     mesh: TriangleMesh
-    wall: TriangleMesh
+    boundary: TriangleMesh
     openings: TriangleMesh | None = None
     warnings: tuple[str, ...] = ()
 
@@ -62,7 +62,7 @@ def find_domain(solid: TriangleMesh, skin: Skin | None, monitor: Monitor) -> Dom
     monitor.count("walls found", 1)
     if skin.is_even:
         is_open = open_triangles(solid, skin.open_faces) if skin.open_faces else None
-        found = inner_wall(solid, skin.thickness, monitor, is_open)
+        found = find_cavity(solid, skin.thickness, monitor, is_open)
     else:
         found, is_open = _uneven(solid, skin, monitor)
     warnings: tuple[str, ...] = ()
@@ -83,12 +83,12 @@ def find_domain(solid: TriangleMesh, skin: Skin | None, monitor: Monitor) -> Dom
     return Domain(trimmed, found.mesh, open_surface(solid, is_open), warnings)
 
 
-def _uneven(solid: TriangleMesh, skin: Skin, monitor: Monitor) -> tuple[InnerWall, Bools | None]:
+def _uneven(solid: TriangleMesh, skin: Skin, monitor: Monitor) -> tuple[Cavity, Bools | None]:
     """The wall of a skin that is not alike everywhere, and which triangles are open."""
     lengths = skin.thicknesses(solid)
     thinnest, field = thinnest_of(lengths, skin.thickness), field_of(solid, skin)
     uneven = partial(_depth, solid, lengths, skin.thickness, monitor, field)
-    found = inner_wall(
+    found = find_cavity(
         solid, thinnest, monitor, lengths.is_open,
         uneven if lengths.others or field is not None else None,
     )  # fmt: skip

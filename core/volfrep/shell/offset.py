@@ -50,7 +50,7 @@ SMALLEST_POCKET = 0.75
 
 
 @dataclass(frozen=True, eq=False)
-class InnerWall:
+class Cavity:
     """The closed surface at a depth below the surface of a solid, and how near it came.
 
     Attributes:
@@ -64,13 +64,13 @@ class InnerWall:
     place: Floats
 
 
-def inner_wall(
+def find_cavity(
     solid: TriangleMesh,
     thickness: float,
     monitor: Monitor,
     is_open: Bools | None = None,
     uneven: Callable[[float], Depth] | None = None,
-) -> InnerWall:
+) -> Cavity:
     """The closed surface at depth `thickness` below the surface of a solid.
 
     Args:
@@ -94,7 +94,7 @@ def inner_wall(
     """
     low, high = solid.bounds
     if is_open is None and np.min(high - low) <= 2.0 * thickness:
-        return InnerWall(empty_mesh(), 0.0, np.zeros(3))
+        return Cavity(empty_mesh(), 0.0, np.zeros(3))
     diagonal = float(np.linalg.norm(high - low))
     depth: Depth
     cube = min(CUBE * thickness, diagonal / CUBES_ALONG_DIAGONAL)
@@ -119,9 +119,9 @@ def inner_wall(
         depth = open_depth(solid, is_open, thickness, spacing, monitor)
     field = DepthField(solid, depth, cube, plain)
     monitor.tick(0.1)
-    wall = find_offset_surface(field)
+    surface = find_offset_surface(field)
     monitor.tick(0.8)
-    mesh = simplify(wall, field)
+    mesh = simplify(surface, field)
     monitor.tick(0.95)
     return _measured(without_small(mesh, (SMALLEST_POCKET * cube) ** 3), depth)
 
@@ -164,10 +164,10 @@ def without_small(mesh: TriangleMesh, volume: float) -> TriangleMesh:
     return compact(TriangleMesh(mesh.vertices, t[np.abs(enclosed)[label] >= volume]))
 
 
-def _measured(mesh: TriangleMesh, depth: Depth) -> InnerWall:
+def _measured(mesh: TriangleMesh, depth: Depth) -> Cavity:
     """The wall with its largest error at random points, the same for the same wall."""
     if not len(mesh.triangles):
-        return InnerWall(mesh, 0.0, np.zeros(3))
+        return Cavity(mesh, 0.0, np.zeros(3))
     a, b, c = mesh.corners()
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     random = np.random.default_rng(0)
@@ -175,4 +175,4 @@ def _measured(mesh: TriangleMesh, depth: Depth) -> InnerWall:
     weight = random.dirichlet((1.0, 1.0, 1.0), MEASURED_POINTS)
     points = weight[:, :1] * a[pick] + weight[:, 1:2] * b[pick] + weight[:, 2:] * c[pick]
     error = np.abs(depth.strays(points))
-    return InnerWall(mesh, float(error.max()), points[np.argmax(error)])
+    return Cavity(mesh, float(error.max()), points[np.argmax(error)])

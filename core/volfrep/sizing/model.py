@@ -54,7 +54,7 @@ class SizingModel:
         wireframe: of the active cells, whole.
         struts: (m,) which strut of the wireframe each piece is a part of.
         skin: its shells; None for none. Its nodes follow those of the struts' pieces.
-        on_wall: (n,) bool, of the pieces' nodes, those that the skin holds.
+        on_boundary: (n,) bool, of the pieces' nodes, those that the skin holds.
         skin_volume: mm3, of the part outside its domain; 0 without a skin.
     """
 
@@ -62,13 +62,13 @@ class SizingModel:
     wireframe: Wireframe
     struts: Ints
     skin: SkinModel | None
-    on_wall: Bools
+    on_boundary: Bools
     skin_volume: float = 0.0
 
     @property
     def frame_nodes(self) -> int:
         """How many of the structure's nodes are the struts'."""
-        return len(self.on_wall)
+        return len(self.on_boundary)
 
 
 def elastic(material: SolidMaterial) -> Elastic:
@@ -90,7 +90,7 @@ def feet_of(wireframe: Wireframe, clipped: Clipped, domain: TriangleMesh, radii:
     """
     frame = clipped.wireframe
     struts = frame.struts.astype(np.int64)
-    strut, end = np.nonzero(clipped.on_wall[struts])
+    strut, end = np.nonzero(clipped.on_boundary[struts])
     if not len(strut):
         return NO_FEET
     node, share = struts[strut, end], np.where(end == 0, clipped.low[strut], clipped.high[strut])
@@ -158,7 +158,7 @@ def sizing_model(
         VolfrepError: nothing of the part lies where a load acts, or no strut hangs together.
     """
     frame, owner, low, high = clipped.wireframe, clipped.owner, clipped.low, clipped.high
-    hung = _hanging_together(frame, clipped.on_wall if skin is not None else None)
+    hung = _hanging_together(frame, clipped.on_boundary if skin is not None else None)
     struts = frame.struts.astype(np.int64)[hung]
     owner, low, high = owner[hung], low[hung], high[hung]
     count = len(wireframe.nodes)
@@ -189,8 +189,8 @@ def sizing_model(
     shape = NodeRadii(ends, filled, None if comes_out is None else comes_out.of(owner))
 
     alone = np.bincount(struts.ravel(), minlength=len(frame.nodes)) == 1
-    on_wall = np.asarray(
-        clipped.on_wall & inside if skin is not None else np.zeros(len(inside), bool)
+    on_boundary = np.asarray(
+        clipped.on_boundary & inside if skin is not None else np.zeros(len(inside), bool)
     )
     stuff = elastic(material)
     smallest, biggest = least, float(largest.max())
@@ -198,12 +198,12 @@ def sizing_model(
         smallest = min(smallest, float(shape.of_struts(np.full(count, least)).min()))
         biggest = max(biggest, float(shape.of_struts(largest).max()))
     table = end_table(ends_law(cell, cell_size, "square"), smallest, biggest)
-    joined = ~(clipped.on_wall & alone)[struts]
+    joined = ~(clipped.on_boundary & alone)[struts]
     nodes, constraints, blocks = frame.nodes, NO_CONSTRAINTS, None
     facets = np.empty((0, 3), np.int64)
     places = nodes
     if skin is not None:
-        tied = np.flatnonzero(on_wall)
+        tied = np.flatnonzero(on_boundary)
         constraints = constraints_to(skin, nodes[tied], tied, len(nodes))
         blocks = replace(
             skin.blocks,
@@ -218,7 +218,7 @@ def sizing_model(
 
     # What can be held and loaded: struts' nodes that are there, and the skin's.
     there = np.zeros(len(nodes), bool)
-    there[: len(inside)] = inside & ~on_wall
+    there[: len(inside)] = inside & ~on_boundary
     if skin is not None:
         there[len(inside) + np.unique(facets)] = True
     body_rows = np.flatnonzero(there)
@@ -258,7 +258,7 @@ def sizing_model(
     skin_volume = 0.0
     if skin is not None and solid is not None and domain is not None:
         skin_volume = solid.volume - domain.volume
-    return SizingModel(problem, wireframe, owner, skin, on_wall, skin_volume)
+    return SizingModel(problem, wireframe, owner, skin, on_boundary, skin_volume)
 
 
 def with_sized_skin(
@@ -342,14 +342,14 @@ def _attached(
     return result
 
 
-def _hanging_together(frame: Wireframe, on_wall: Bools | None) -> Bools:
+def _hanging_together(frame: Wireframe, on_boundary: Bools | None) -> Bools:
     """(m,) struts of the largest piece; with a skin, those that hang on it somewhere."""
     struts = frame.struts
     piece = pieces_of(struts[:, 0], struts[:, 1], len(frame.nodes))[1]
-    if on_wall is None:
+    if on_boundary is None:
         return np.asarray(piece[struts[:, 0]] == np.argmax(np.bincount(piece[struts[:, 0]])))
     kept = np.zeros(piece.max() + 1, bool)
-    kept[piece[on_wall]] = True
+    kept[piece[on_boundary]] = True
     return np.asarray(kept[piece[struts[:, 0]]])
 
 

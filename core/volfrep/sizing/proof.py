@@ -169,7 +169,7 @@ def prove_design(
     solid, more = None, None
     place, there = np.arange(len(problem.structure.nodes)), problem.watched.copy()
     if model.skin is not None:
-        arms = np.flatnonzero(model.on_wall)
+        arms = np.flatnonzero(model.on_boundary)
         deck = with_arms(deck, arms, float(of_struts.mean()))
         solid, more = solid_skin(model.skin, deck, arms, material)
         # What is held and loaded is the outside; nodes of struts on a wall follow it.

@@ -30,10 +30,10 @@ class TpmsSolid:
     level: float
 
     @staticmethod
-    def of(surface: PeriodicSurface, wall: TpmsSheet, cell_size: float) -> TpmsSolid:
+    def of(surface: PeriodicSurface, sheet: TpmsSheet, cell_size: float) -> TpmsSolid:
         """What a wall, in mm, is in cells of a size."""
-        length = 0.5 * wall.thickness if wall.is_sheet else wall.offset
-        return TpmsSolid(midsurface(surface), wall.kind, length / cell_size)
+        length = 0.5 * sheet.thickness if sheet.is_sheet else sheet.offset
+        return TpmsSolid(midsurface(surface), sheet.kind, length / cell_size)
 
     def outward(self, feet: Feet) -> Floats:
         """(n,) 1 where the solid's outside lies along the feet's normals, -1 where against."""

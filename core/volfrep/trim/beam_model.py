@@ -40,15 +40,15 @@ def part_beams(
         VolfrepError: a drain hole cannot be where it is wanted.
     """
     lattice = reaching_into(struts, solid)
-    wall = joined_wall(solid, cavity, skin)
+    boundary = joined_boundary(solid, cavity, skin)
     if drains is None:
-        return BeamModel(lattice, solid, wall)
-    closed = TrimmedSurface(wall)
+        return BeamModel(lattice, solid, boundary)
+    closed = TrimmedSurface(boundary)
     drained = drain(closed, solid, cavity, lattice, skin.deepest, drains, monitor)
     return BeamModel(lattice, solid, drained.surface.mesh, drained.warnings)
 
 
-def joined_wall(solid: TriangleMesh, cavity: TriangleMesh, skin: Skin) -> TriangleMesh:
+def joined_boundary(solid: TriangleMesh, cavity: TriangleMesh, skin: Skin) -> TriangleMesh:
     """A part's skin as a closed mesh of its outer and its inner wall."""
     if skin.open_faces:
         return difference(solid, cavity)

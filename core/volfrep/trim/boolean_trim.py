@@ -50,11 +50,11 @@ class Trimmed:
 
     Attributes:
         surface: for a part: the cavity's, seen from the material. Otherwise the lattice's.
-        on_wall: (m,) bool, triangles of its mesh that lie on the domain's wall.
+        on_boundary: (m,) bool, triangles of its mesh that lie on the domain's wall.
     """
 
     surface: TrimmedSurface
-    on_wall: Bools
+    on_boundary: Bools
 
 
 def trim(
@@ -99,7 +99,7 @@ def trim(
         return trim(
             domain, whole, cavity=cavity, monitor=monitor, executor=executor, precision=precision
         )
-    return Trimmed(trimmed, found.on_wall)
+    return Trimmed(trimmed, found.on_boundary)
 
 
 def _joined(
@@ -111,7 +111,7 @@ def _joined(
     ahead: Ahead | None,
 ) -> Joined:
     """All groups, cut and joined; those that do not meet exactly are cut as one."""
-    same = SAME_VERTEX * shortest_edge(groups.wall)
+    same = SAME_VERTEX * shortest_edge(groups.boundary)
     rim = np.zeros((0, 3)) if inner is None else inner.rim_points
     pieces: dict[int, Piece] = {}
     while True:
@@ -127,7 +127,7 @@ def _joined(
             if len(wrong):
                 raise piece.error
             # Vertices of the slivers that went are out of use.
-            return Joined(compact(piece.mesh), piece.on_wall, wrong)
+            return Joined(compact(piece.mesh), piece.on_boundary, wrong)
         if not len(wrong):
             together = [pieces[k] for k in range(groups.count)]
             if cavity:
@@ -288,13 +288,13 @@ class Joined:
 
     Attributes:
         mesh: of all of them, first vertices first.
-        on_wall: (m,) bool, triangles that lie on the wall.
+        on_boundary: (m,) bool, triangles that lie on the wall.
         loose: pieces that are open where no other one nor the rim follows.
         looks: what is known of its triangles; None: nothing.
     """
 
     mesh: TriangleMesh
-    on_wall: Bools
+    on_boundary: Bools
     loose: Ints
     looks: Looks | None = None
 
@@ -311,7 +311,7 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
         tolerance: mm.
     """
     whole = concatenate(*(piece.mesh for piece in pieces))
-    on_wall = np.concatenate([piece.on_wall for piece in pieces])
+    on_boundary = np.concatenate([piece.on_boundary for piece in pieces])
     first = np.cumsum([0] + [len(piece.mesh.vertices) for piece in pieces])
     begin = np.cumsum([0] + [len(piece.mesh.triangles) for piece in pieces])
     seam = np.concatenate([piece.rim + k for piece, k in zip(pieces, first, strict=False)])
@@ -334,7 +334,7 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     at_rim[seam[chosen[row[row >= 0]]]] = True
     loose.append(np.searchsorted(begin, _open(triangles, number, seam, at_rim), "right") - 1)
     mesh = compact(whole, owned=True)
-    return Joined(mesh, on_wall, np.unique(np.concatenate(loose)), _known(pieces))
+    return Joined(mesh, on_boundary, np.unique(np.concatenate(loose)), _known(pieces))
 
 
 def _known(pieces: Sequence[Piece]) -> Looks | None:
@@ -343,7 +343,7 @@ def _known(pieces: Sequence[Piece]) -> Looks | None:
     if len(steps) != 1:
         return None
     marks = [
-        np.zeros(len(piece.on_wall), np.uint8) if piece.looks is None else piece.looks.marks
+        np.zeros(len(piece.on_boundary), np.uint8) if piece.looks is None else piece.looks.marks
         for piece in pieces
     ]
     return Looks(np.concatenate(marks), steps.pop())

@@ -34,7 +34,7 @@ class Clipped:
 
     Attributes:
         wireframe: nodes and struts inside; a cut strut ends in a node of its own on the wall.
-        on_wall: (n,) bool, nodes of the wireframe at which the wall holds the lattice.
+        on_boundary: (n,) bool, nodes of the wireframe at which the wall holds the lattice.
         owner: (m,) int64, the strut of the whole lattice that each strut is a piece of.
         low: (m,) float64, where on it the piece begins, as a share of its length.
         high: (m,) float64, where it ends.
@@ -42,7 +42,7 @@ class Clipped:
     """
 
     wireframe: Wireframe
-    on_wall: Bools
+    on_boundary: Bools
     owner: Ints
     low: Floats
     high: Floats
@@ -72,10 +72,10 @@ def clip(wireframe: Wireframe, domain: TriangleMesh, inside: Pieces | None = Non
     whole = (low == 0.0) & (high == 1.0)
     kept = whole | ((high - low) * length > SHORTEST_PIECE * radius)
 
-    on_wall = closest_points(domain, wireframe.nodes)[1] < AT_WALL * wireframe.joint_radii
+    on_boundary = closest_points(domain, wireframe.nodes)[1] < AT_WALL * wireframe.joint_radii
     for side, at_end in ((0, low == 0.0), (1, high == 1.0)):
-        on_wall[wireframe.struts[owner[~kept & at_end], side]] = True
-    return _assemble(wireframe, on_wall, owner[kept], low[kept], high[kept])
+        on_boundary[wireframe.struts[owner[~kept & at_end], side]] = True
+    return _assemble(wireframe, on_boundary, owner[kept], low[kept], high[kept])
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +116,7 @@ def pieces_inside(wireframe: Wireframe, domain: TriangleMesh) -> Pieces:
 
 
 def _assemble(
-    wireframe: Wireframe, on_wall: Bools, owner: Ints, low: Floats, high: Floats
+    wireframe: Wireframe, on_boundary: Bools, owner: Ints, low: Floats, high: Floats
 ) -> Clipped:
     """A wireframe of the pieces `low` to `high` of the struts `owner`."""
     struts = wireframe.struts[owner].astype(np.int64)
@@ -131,7 +131,7 @@ def _assemble(
         joints.append(new_radii[cut, side])
         struts[cut, side] = count + np.arange(np.count_nonzero(cut))
         count += np.count_nonzero(cut)
-    walls = np.concatenate([on_wall, np.ones(count - len(on_wall), bool)])
+    walls = np.concatenate([on_boundary, np.ones(count - len(on_boundary), bool)])
     used, index = np.unique(struts, return_inverse=True)
     clipped = Wireframe(
         np.concatenate(nodes)[used],

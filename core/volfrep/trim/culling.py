@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..grid.activation import crossed_cells, inside_cells, wall_corners
+from ..grid.activation import boundary_corners, crossed_cells, inside_cells
 from ..grid.cell_grid import CellGrid
 from ..grid.coordinate_map import STRAIGHT, CoordinateMap
 from ..lattice.assembly import Layout, lay_out
@@ -62,7 +62,7 @@ def octant_roles(
         margin += STRAIGHT * cells.cell_size / half  # where the wall is known no better
     # The margin is on either side, the cell is enlarged by both.
     border = crossed_cells(
-        grid, wall_corners(domain, mapping), monitor, CROSSING_MARGIN + 2.0 * margin
+        grid, boundary_corners(domain, mapping), monitor, CROSSING_MARGIN + 2.0 * margin
     )
     return OctantRoles(border, inside_cells(grid, domain, monitor, mapping) & ~border)
 

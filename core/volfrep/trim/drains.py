@@ -100,14 +100,14 @@ def drain(
     warnings: list[str] = []
     if wanted.count:
         chosen, mesh = [], drilled.mesh
-        walls = np.unique(found.shell)  # a void that has none at the wall cannot be reached
-        for shell in walls[found.volume[walls] < 0.0]:
-            wall = compact(TriangleMesh(mesh.vertices, mesh.triangles[found.shell == shell]))
-            own = _lowest(site, wall, lattice, wanted, holes)
+        voids = np.unique(found.shell)  # a void that has none at the wall cannot be reached
+        for shell in voids[found.volume[voids] < 0.0]:
+            void = compact(TriangleMesh(mesh.vertices, mesh.triangles[found.shell == shell]))
+            own = _lowest(site, void, lattice, wanted, holes)
             chosen.append(own)
             holes = holes.joined(own)
             if len(own.start) < wanted.count:
-                x, y, z = wall.vertices.mean(axis=0)
+                x, y, z = void.vertices.mean(axis=0)
                 warnings.append(
                     f"The void about ({x:.4g}, {y:.4g}, {z:.4g}) has room for {len(own.start)} of "
                     f"its {wanted.count} drain holes: choose a smaller diameter, or give their "
@@ -331,7 +331,7 @@ def _lowest(
     """
     up = np.array(wanted.build_direction, float)
     up /= np.linalg.norm(up)
-    points = _on_wall(site, void)
+    points = _on_boundary(site, void)
     points = points[np.argsort(along(points, up), kind="stable")]
     chosen = _Holes.none()
     begin, size = 0, LOOKED_AT
@@ -363,7 +363,7 @@ def _lowest(
     return chosen
 
 
-def _on_wall(site: _Site, void: TriangleMesh) -> Floats:
+def _on_boundary(site: _Site, void: TriangleMesh) -> Floats:
     """Random points of a void's surface that lie on the inner wall, the same for the same void."""
     a, b, c = void.corners()
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)

@@ -49,8 +49,8 @@ class Group:
         own: (nx, ny, nz) bool, those whose surface the group gives out.
         beside: others that its part of the wall touches.
         follow: where the lattice goes on.
-        wall: closed mesh, near the octants that of the domain, mm.
-        own_wall: (m,) bool, triangles of it whose remains the group gives out.
+        boundary: closed mesh, near the octants that of the domain, mm.
+        own_boundary: (m,) bool, triangles of it whose remains the group gives out.
         cavity: True for the wall less the lattice, turned inside out, False for what is in both.
         alone: whether there is no other group; otherwise no source triangle is joined with
             another in one plane, so that groups leave the same vertices where they meet.
@@ -61,8 +61,8 @@ class Group:
     own: Bools
     beside: Bools
     follow: Bools
-    wall: TriangleMesh
-    own_wall: Bools
+    boundary: TriangleMesh
+    own_boundary: Bools
     cavity: bool
     alone: bool
     precision: float = 0.0
@@ -74,7 +74,7 @@ class Piece:
 
     Attributes:
         mesh: open where other groups or octants inside follow.
-        on_wall: (m,) bool, its triangles that lie on the wall.
+        on_boundary: (m,) bool, its triangles that lie on the wall.
         rim: vertices at open edges.
         work: what was done, counted.
         defect: what is not a solid; empty otherwise.
@@ -82,7 +82,7 @@ class Piece:
     """
 
     mesh: TriangleMesh
-    on_wall: Bools
+    on_boundary: Bools
     rim: Ints
     work: dict[str, int] = field(default_factory=dict)
     defect: str = ""
@@ -129,7 +129,7 @@ def _looked_at(piece: Piece, group: Group, monitor: Monitor) -> Piece:
     layout, far = placed.layout, CLEAR_STEPS * step
     half = 0.5 * layout.grid.cell_size
     others = np.pad(group.beside | group.follow, 1, constant_values=True)
-    elsewhere = group.wall.vertices[group.wall.triangles[~group.own_wall]]
+    elsewhere = group.boundary.vertices[group.boundary.triangles[~group.own_boundary]]
 
     def alone(rows: Ints) -> Bools:
         """Those that lie in the group's own octants only, and beside no wall of other groups."""
@@ -166,11 +166,11 @@ def _tidied(piece: Piece, precision: float, monitor: Monitor) -> Piece:
     if not new.any() or monitor.call(lambda: crossing_triangles(smooth, new, precision)).any():
         return piece
     # What was rebuilt counts as of the wall where all its corners were on it.
-    at_wall = np.zeros(len(smooth.vertices), bool)
-    at_wall[smooth.triangles[: len(stayed)][piece.on_wall[stayed]]] = True
-    on_wall = at_wall[smooth.triangles].all(axis=1)
-    on_wall[: len(stayed)] = piece.on_wall[stayed]
-    return Piece(smooth, on_wall, piece.rim, piece.work)
+    at_boundary = np.zeros(len(smooth.vertices), bool)
+    at_boundary[smooth.triangles[: len(stayed)][piece.on_boundary[stayed]]] = True
+    on_boundary = at_boundary[smooth.triangles].all(axis=1)
+    on_boundary[: len(stayed)] = piece.on_boundary[stayed]
+    return Piece(smooth, on_boundary, piece.rim, piece.work)
 
 
 def _cut_along_seam(
@@ -187,24 +187,26 @@ def _cut_along_seam(
     """
     lattice = group.placed.mesh(np.concatenate(surfaces), group.own | group.beside, monitor)[0]
     own = np.arange(len(lattice.triangles)) < len(surfaces[0])
-    monitor.count("triangles into the Boolean", len(lattice.triangles) + len(group.wall.triangles))
-    wanted = own, group.own_wall
+    monitor.count(
+        "triangles into the Boolean", len(lattice.triangles) + len(group.boundary.triangles)
+    )
+    wanted = own, group.own_boundary
 
     def within(points: Floats) -> Bools:
         return inside_points(capped(), points, monitor)
 
     parts = asked.call(
         lambda: cut_mutually(
-            lattice, group.wall, wanted, within, in_front=group.cavity, monitor=monitor
+            lattice, group.boundary, wanted, within, in_front=group.cavity, monitor=monitor
         )
     )
-    wall = parts.second[:, ::-1] if group.cavity else parts.second
-    triangles = np.concatenate([parts.first, wall]).astype(np.int32)
+    boundary = parts.second[:, ::-1] if group.cavity else parts.second
+    triangles = np.concatenate([parts.first, boundary]).astype(np.int32)
     piece = compact(TriangleMesh(parts.vertices, triangles))
-    on_wall = np.arange(len(triangles)) >= len(parts.first)
+    on_boundary = np.arange(len(triangles)) >= len(parts.first)
     return Piece(
         piece,
-        on_wall,
+        on_boundary,
         rim_of(piece),
         monitor.work,
     )
@@ -220,36 +222,38 @@ def _cut_by_library(
 ) -> Piece:
     """What manifold3d's Boolean leaves, which decides where octants and wall touch, too."""
     library = manifold_library("Cutting a lattice at a skin")
-    monitor.count("triangles into the Boolean", len(capped.triangles) + len(group.wall.triangles))
+    monitor.count(
+        "triangles into the Boolean", len(capped.triangles) + len(group.boundary.triangles)
+    )
     ids = library.Manifold.reserve_ids(5)
-    order = np.argsort(~group.own_wall, kind="stable")
-    wall_mesh = TriangleMesh(group.wall.vertices, group.wall.triangles[order])
-    owned = int(group.own_wall.sum())
-    wall = _solid(wall_mesh, [owned, len(order) - owned], ids, group.alone, asked)
+    order = np.argsort(~group.own_boundary, kind="stable")
+    boundary_mesh = TriangleMesh(group.boundary.vertices, group.boundary.triangles[order])
+    owned = int(group.own_boundary.sum())
+    boundary = _solid(boundary_mesh, [owned, len(order) - owned], ids, group.alone, asked)
     sizes = [len(surfaces[0]), len(surfaces[1]), caps]
     cutter = _solid(capped, sizes, ids + 2, group.alone, asked)
-    for solid, what in ((wall, "wall"), (cutter, "lattice")):
+    for solid, what in ((boundary, "wall"), (cutter, "lattice")):
         if solid.status() != library.Error.NoError:
             defect = f"{what} {solid.status().name}"
             return Piece(empty_mesh(), np.zeros(0, bool), np.zeros(0, np.int64), {}, defect)
-    del capped, wall_mesh
+    del capped, boundary_mesh
     cavity = group.cavity
-    result = asked.call(lambda: (wall - cutter if cavity else wall ^ cutter).to_mesh64())
+    result = asked.call(lambda: (boundary - cutter if cavity else boundary ^ cutter).to_mesh64())
     mesh, origin = read_runs(result)
-    on_wall = origin == ids
-    kept = on_wall | (origin == ids + 2)
+    on_boundary = origin == ids
+    kept = on_boundary | (origin == ids + 2)
     triangles = mesh.triangles[kept]
     piece = compact(TriangleMesh(mesh.vertices, triangles[:, ::-1] if cavity else triangles))
     return Piece(
         piece,
-        on_wall[kept],
+        on_boundary[kept],
         rim_of(piece),
         monitor.work,
     )
 
 
 def cut_mesh(
-    wall: TriangleMesh, lattice: TriangleMesh, *, cavity: bool, monitor: Monitor
+    boundary: TriangleMesh, lattice: TriangleMesh, *, cavity: bool, monitor: Monitor
 ) -> tuple[TriangleMesh, NDArray[np.bool_]]:
     """Cut a lattice that is one closed mesh at the wall, as `cut` does octants.
 
@@ -264,7 +268,7 @@ def cut_mesh(
     ids = library.Manifold.reserve_ids(2)
     solids = [
         _solid(mesh, [len(mesh.triangles)], ids + k, True, monitor)
-        for k, mesh in enumerate((wall, lattice))
+        for k, mesh in enumerate((boundary, lattice))
     ]
     for solid, what in zip(solids, ("domain", "lattice"), strict=True):
         if solid.status() != library.Error.NoError:
@@ -273,7 +277,7 @@ def cut_mesh(
                 "mesh, or make the struts thinner."
             )
     one, two = solids
-    monitor.count("triangles into the Boolean", len(wall.triangles) + len(lattice.triangles))
+    monitor.count("triangles into the Boolean", len(boundary.triangles) + len(lattice.triangles))
     result = monitor.call(lambda: (one - two if cavity else one ^ two).to_mesh64())
     mesh, origin = read_runs(result)
     return mesh.reversed() if cavity else mesh, origin == ids

@@ -87,7 +87,7 @@ class KeptStruts:
 
 def find_kept_struts(
     lattice: Wireframe,
-    wall: TriangleMesh | None,
+    boundary: TriangleMesh | None,
     *,
     has_skin: bool,
     bodies: int = 1,
@@ -98,25 +98,25 @@ def find_kept_struts(
 
     Args:
         lattice: all its struts, mm.
-        wall: closed mesh that cuts them; None for none.
+        boundary: closed mesh that cuts them; None for none.
         has_skin: whether a skin behind the wall holds what it cuts.
         bodies: without a skin, so many of the largest pieces stay.
         openings: faces of the wall that have no skin; None for none.
         keep_all: all stay, whatever they hang on.
     """
     count = len(lattice.struts)
-    if wall is None:
+    if boundary is None:
         pieces = Pieces(np.arange(count), np.zeros(count), np.ones(count))
     else:
-        pieces = pieces_inside(lattice, wall)
+        pieces = pieces_inside(lattice, boundary)
     if keep_all or not len(pieces.owner):
         return KeptStruts(pieces, np.ones(len(pieces.owner), bool), 0, 0.0, has_skin, None)
     sizes = _volumes(pieces, lattice)
-    group = _groups(pieces, lattice, None if has_skin else wall)
+    group = _groups(pieces, lattice, None if has_skin else boundary)
     total = np.bincount(group, sizes)
     keeps = np.zeros(len(total), bool)
-    if has_skin and wall is not None:
-        keeps[group[_on_skin(pieces, lattice, wall, openings)]] = True
+    if has_skin and boundary is not None:
+        keeps[group[_on_skin(pieces, lattice, boundary, openings)]] = True
     else:
         keeps[np.argsort(-total, kind="stable")[:bodies]] = True
     stays = keeps[group]
@@ -134,20 +134,23 @@ def largest(pieces: Pieces, lattice: Wireframe, bodies: int) -> Bools:
 
 
 def axes_of(
-    lattice: Wireframe, wall: TriangleMesh | None, kept: KeptStruts, openings: TriangleMesh | None
+    lattice: Wireframe,
+    boundary: TriangleMesh | None,
+    kept: KeptStruts,
+    openings: TriangleMesh | None,
 ) -> Clipped:
     """The axes of the struts that stay, cut where they leave the domain.
 
     Args:
         lattice: all its struts, mm.
-        wall: as for `held`, which `kept` comes from.
+        boundary: as for `held`, which `kept` comes from.
         kept: the pieces that stay.
         openings: faces of the wall that have no skin; None for none.
 
     Raises:
         VolfrepError: no axis lies inside the wall.
     """
-    if wall is None:
+    if boundary is None:
         frame = kept.without_loose(lattice)
         owner = np.flatnonzero(kept.whole(lattice))
         clipped = Clipped(
@@ -155,20 +158,20 @@ def axes_of(
             np.ones(len(owner)), kept.notes,
         )  # fmt: skip
     else:
-        clipped = replace(clip(lattice, wall, kept.left), warnings=kept.notes)
+        clipped = replace(clip(lattice, boundary, kept.left), warnings=kept.notes)
         if openings is not None:
             frame = clipped.wireframe
             free = lie_on(openings, frame.nodes, AT_WALL * frame.joint_radii)
-            clipped = replace(clipped, on_wall=clipped.on_wall & ~free)
+            clipped = replace(clipped, on_boundary=clipped.on_boundary & ~free)
     if not len(clipped.wireframe.struts):
         raise VolfrepError(
             "No strut's axis lies inside the part: reduce the cell size or move the origin."
         )
     if kept.has_skin:
         return clipped
-    if wall is not None:
-        grazing = _along(kept.left, lattice, wall)
-        clipped = drawn_together(with_grazing(clipped, lattice, wall, grazing), lattice)
+    if boundary is not None:
+        grazing = _along(kept.left, lattice, boundary)
+        clipped = drawn_together(with_grazing(clipped, lattice, boundary, grazing), lattice)
     clipped = tied(clipped)
     return clipped if kept.bodies is None else _with_joints(clipped, kept.bodies)
 
@@ -203,7 +206,7 @@ def _with_joints(clipped: Clipped, bodies: int) -> Clipped:
     note = (f"{left} hang on the others by too little for beams, and are left out.",)
     used = np.unique(frame.struts[stays])
     return Clipped(
-        select_struts(frame, stays), clipped.on_wall[used], clipped.owner[stays],
+        select_struts(frame, stays), clipped.on_boundary[used], clipped.owner[stays],
         clipped.low[stays], clipped.high[stays], clipped.warnings + note,
     )  # fmt: skip
 
@@ -215,14 +218,14 @@ def _volumes(pieces: Pieces, lattice: Wireframe) -> Floats:
 
 
 def _on_skin(
-    pieces: Pieces, lattice: Wireframe, wall: TriangleMesh, openings: TriangleMesh | None
+    pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh, openings: TriangleMesh | None
 ) -> Bools:
     """(p,) the pieces that a skin holds: it cuts them, or their material reaches it."""
     start, end = _ends(pieces, lattice)
     result = np.zeros(len(start), bool)
     for point, cut, side in ((start, pieces.low > 0.0, 0), (end, pieces.high < 1.0, 1)):
         reach = lattice.joint_radii[lattice.struts[pieces.owner, side]]
-        held_there = cut | (closest_points(wall, point)[1] < reach)
+        held_there = cut | (closest_points(boundary, point)[1] < reach)
         if openings is not None:
             held_there &= ~lie_on(openings, point, reach)
         result |= held_there
@@ -236,7 +239,7 @@ def _ends(pieces: Pieces, lattice: Wireframe) -> tuple[Floats, Floats]:
     return first + pieces.low[:, None] * along, first + pieces.high[:, None] * along
 
 
-def _groups(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh | None) -> Ints:
+def _groups(pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh | None) -> Ints:
     """(p,) the group of each piece; of one group are those whose material hangs together.
 
     With a wall, struts that lie in it, or within their radius outside, join what they touch.
@@ -249,8 +252,8 @@ def _groups(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh | None) -> In
     if len(np.unique(group)) == 1:
         return np.zeros(count, np.int64)
     owner, low, high = pieces.owner, pieces.low, pieces.high
-    if wall is not None:
-        along = _along(pieces, lattice, wall)
+    if boundary is not None:
+        along = _along(pieces, lattice, boundary)
         own = group.max() + 1 + np.arange(len(along))
         group = np.concatenate([group, own])
         owner = np.concatenate([owner, along])
@@ -262,13 +265,13 @@ def _groups(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh | None) -> In
     return _meeting(Pieces(owner, low, high), lattice, group)[:count]
 
 
-def _along(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh) -> Ints:
+def _along(pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh) -> Ints:
     """The struts without a piece inside whose nodes both lie in the wall or nearly so."""
     outside = np.bincount(pieces.owner, minlength=len(lattice.struts)) == 0
     asked = np.unique(lattice.struts[outside])
     near = np.zeros(len(lattice.nodes), bool)
     if len(asked):
-        near[asked] = closest_points(wall, lattice.nodes[asked])[1] < lattice.joint_radii[asked]
+        near[asked] = closest_points(boundary, lattice.nodes[asked])[1] < lattice.joint_radii[asked]
     return np.flatnonzero(outside & near[lattice.struts].all(axis=1))
 
 

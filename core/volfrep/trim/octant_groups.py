@@ -50,7 +50,7 @@ class Groups:
 
     Attributes:
         laid: all the octants.
-        wall: closed mesh, mm; of small triangles where groups meet.
+        boundary: closed mesh, mm; of small triangles where groups meet.
         places: (k, 3) the octants.
         low, high: (k, 3) corners of their boxes, mm.
         octant: (k,) the group of each.
@@ -61,7 +61,7 @@ class Groups:
     """
 
     laid: PlacedLattice
-    wall: TriangleMesh
+    boundary: TriangleMesh
     places: Ints
     low: Floats
     high: Floats
@@ -78,7 +78,7 @@ class Groups:
         left, number = np.unique(number, return_inverse=True)
         triangle = np.where(self.triangle < 0, -1, number[self.triangle])
         groups = Groups(
-            self.laid, self.wall, self.places, self.low, self.high, number[self.octant],
+            self.laid, self.boundary, self.places, self.low, self.high, number[self.octant],
             triangle, self.touch, len(left), self.precision,
         )  # fmt: skip
         return groups, number
@@ -96,8 +96,8 @@ class Groups:
     @property
     def untouched(self) -> Piece:
         """The triangles of the wall that no octant reaches, seen from the material."""
-        triangles = self.wall.triangles[self.triangle < 0, ::-1]
-        mesh = compact(TriangleMesh(self.wall.vertices, triangles))
+        triangles = self.boundary.triangles[self.triangle < 0, ::-1]
+        mesh = compact(TriangleMesh(self.boundary.vertices, triangles))
         return Piece(mesh, np.ones(len(triangles), bool), rim_of(mesh))
 
     def each(self, which: Ints, cavity: bool, monitor: Monitor) -> Iterator[tuple[int, Group]]:
@@ -109,16 +109,16 @@ class Groups:
         alone = self.count == 1
         octants = [self._octants(group) for group in which]
         if alone:
-            whole = self.wall, np.ones(len(self.wall.triangles), bool)
-            walls = iter([(0, *whole)])
+            whole = self.boundary, np.ones(len(self.boundary.triangles), bool)
+            boundaries = iter([(0, *whole)])
         else:
             owned = [np.flatnonzero(self.triangle == group) for group in which]
             # All of a triangle of the wall goes in where an octant is cut by it: a part of it would
             # be divided otherwise.
             boxes = np.array([self._box(*each) for each in zip(which, octants, owned, strict=True)])
-            walls = _near(self.wall, boxes, owned, monitor)
+            boundaries = _near(self.boundary, boxes, owned, monitor)
         going = self.laid.kept.border | self.laid.kept.inside
-        for k, wall, own_wall in walls:
+        for k, boundary, own_boundary in boundaries:
             group, rows = int(which[k]), octants[k]
             placed, box = self.laid.cutting(self.places[rows])
             low = np.array([part.start or 0 for part in box])
@@ -127,7 +127,15 @@ class Groups:
             every = placed.layout.grid.kind >= 0
             follow = going[box] & ~every
             made = Group(
-                placed, mine, every & ~mine, follow, wall, own_wall, cavity, alone, self.precision
+                placed,
+                mine,
+                every & ~mine,
+                follow,
+                boundary,
+                own_boundary,
+                cavity,
+                alone,
+                self.precision,
             )
             yield group, made
 
@@ -156,8 +164,8 @@ class Groups:
     def _box(self, group: int, octants: Ints, triangles: Ints) -> Floats:
         """(2, 3) about a group's octants, its part of the wall and what cuts its own octants."""
         cutting = self.touch[_of(self._by_octant, group), 1]
-        every = self.wall.triangles[np.concatenate([triangles, cutting])]
-        corners = self.wall.vertices[every].reshape(-1, 3)
+        every = self.boundary.triangles[np.concatenate([triangles, cutting])]
+        corners = self.boundary.vertices[every].reshape(-1, 3)
         beyond = BEYOND * _edge(self.low, self.high)
         low = np.concatenate([self.low[octants], corners]).min(axis=0)
         high = np.concatenate([self.high[octants], corners]).max(axis=0)
@@ -176,13 +184,13 @@ def _of(rows: tuple[Ints, Ints], group: int) -> Ints:
 
 
 def group_octants(
-    laid: PlacedLattice, wall: TriangleMesh, monitor: Monitor, precision: float = 0.0
+    laid: PlacedLattice, boundary: TriangleMesh, monitor: Monitor, precision: float = 0.0
 ) -> Groups:
     """Octants and wall in groups.
 
     Args:
         laid: all the octants.
-        wall: closed mesh of what the lattice fills.
+        boundary: closed mesh of what the lattice fills.
         monitor: for progress and cancel.
         precision: slivers thinner than that go, mm.
     """
@@ -191,14 +199,14 @@ def group_octants(
         places = np.argwhere(laid.kept.border)
         nowhere = np.zeros((0, 3))
         return Groups(
-            laid, wall, places, nowhere, nowhere, np.zeros(len(places), np.int64),
-            np.zeros(len(wall.triangles), np.int64), np.zeros((0, 2), np.int64), 1,
+            laid, boundary, places, nowhere, nowhere, np.zeros(len(places), np.int64),
+            np.zeros(len(boundary.triangles), np.int64), np.zeros((0, 2), np.int64), 1,
             precision,
         )  # fmt: skip
     places, low, high = laid.boxes(laid.kept.border, monitor)
     edge = _edge(low, high)
     octant, count = _halved(places, _triangles(layout, places))
-    fine = _split(wall, LONGEST_SIDE * edge, *_bounds(low, high, octant, count))
+    fine = _split(boundary, LONGEST_SIDE * edge, *_bounds(low, high, octant, count))
     touch = _touching(low, high, fine, NEAR * edge)
     return Groups(
         laid, fine, places, low, high, octant, _owners(touch, octant, count, len(fine.triangles)),
@@ -284,9 +292,9 @@ def _split(mesh: TriangleMesh, longest: float, low: Floats, high: Floats) -> Tri
         points, triangles = remesh.split(points, triangles, wanted)
 
 
-def _touching(low: Floats, high: Floats, wall: TriangleMesh, near: float) -> Ints:
+def _touching(low: Floats, high: Floats, boundary: TriangleMesh, near: float) -> Ints:
     """(t, 2) boxes and triangles that touch, by their boxes and by the triangles' planes."""
-    corners = wall.vertices[wall.triangles]
+    corners = boundary.vertices[boundary.triangles]
     first, last = corners.min(axis=1) - near, corners.max(axis=1) + near
     a, b = meeting_boxes(low, high, first, last, float((high - low).max()))
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -308,7 +316,7 @@ def _owners(touch: Ints, octant: Ints, count: int, triangles: int) -> Ints:
 
 
 def _near(
-    wall: TriangleMesh, boxes: Floats, owned: list[Ints], monitor: Monitor
+    boundary: TriangleMesh, boxes: Floats, owned: list[Ints], monitor: Monitor
 ) -> Iterator[tuple[int, TriangleMesh, Bools]]:
     """The solid within the wall, cut to (k, 2, 3) boxes, and which triangles are those owned.
 
@@ -317,10 +325,10 @@ def _near(
     library = manifold_library("Cutting a lattice at a skin")
     own_id = library.Manifold.reserve_ids(1)
     source = to_library(
-        wall,
-        run_index=np.array([0, 3 * len(wall.triangles)], np.uint64),
+        boundary,
+        run_index=np.array([0, 3 * len(boundary.triangles)], np.uint64),
         run_original_id=np.array([own_id], np.uint32),
-        face_id=np.arange(len(wall.triangles), dtype=np.uint64),
+        face_id=np.arange(len(boundary.triangles), dtype=np.uint64),
     )
     whole = monitor.call(lambda: library.Manifold(source))
     if whole.status() != library.Error.NoError:

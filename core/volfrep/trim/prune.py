@@ -107,7 +107,7 @@ def prune(
 
 def remaining(
     lattice: Wireframe,
-    wall: TriangleMesh | None,
+    boundary: TriangleMesh | None,
     *,
     held: bool,
     shortest: float,
@@ -122,7 +122,7 @@ def remaining(
 
     Args:
         lattice: all the struts, mm.
-        wall: closed mesh that cuts them; None for none.
+        boundary: closed mesh that cuts them; None for none.
         held: whether there is a skin behind the wall, which holds what it cuts.
         shortest: struts with a free end that are shorter than this go, mm.
         dangling: all struts with a free end go.
@@ -130,13 +130,13 @@ def remaining(
         openings: faces of the wall that have no skin; None for none.
     """
     count = len(lattice.struts)
-    if wall is None:
+    if boundary is None:
         every = np.arange(count)
         pieces = Pieces(every, np.zeros(count), np.ones(count))
     else:
-        pieces = pieces_inside(lattice, wall)
+        pieces = pieces_inside(lattice, boundary)
         if not held:
-            pieces = _to_near_nodes(pieces, lattice, wall)
+            pieces = _to_near_nodes(pieces, lattice, boundary)
     length = pieces.lengths(lattice)
     ends, fixed = _ends(pieces, lattice, held, openings)
     thin = lattice.radii.max(axis=1) <= thickest
@@ -156,7 +156,7 @@ def remaining(
     return Remaining(~lost, stubs, int(lost.sum()) - stubs - are_thin, are_thin)
 
 
-def _to_near_nodes(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh) -> Pieces:
+def _to_near_nodes(pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh) -> Pieces:
     """Pieces that end just before a node outside the wall, prolonged to it.
 
     A strut that runs outside between two such nodes is a piece as a whole.
@@ -167,7 +167,7 @@ def _to_near_nodes(pieces: Pieces, lattice: Wireframe, wall: TriangleMesh) -> Pi
     outside = np.flatnonzero(~inside)
     near = np.zeros(len(lattice.nodes), bool)
     if len(outside):
-        distance = closest_points(wall, lattice.nodes[outside])[1]
+        distance = closest_points(boundary, lattice.nodes[outside])[1]
         near[outside] = distance < NODE_REACH * lattice.joint_radii[outside]
     first = np.diff(pieces.owner, prepend=-1) > 0
     last = np.diff(pieces.owner, append=len(lattice.struts)) > 0

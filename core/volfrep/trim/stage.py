@@ -107,15 +107,15 @@ def cut_lattice(
 
     def cut() -> Trimmed:
         found = trim(
-            domain.wall, laid, cavity=with_skin, monitor=monitor, executor=executor,
+            domain.boundary, laid, cavity=with_skin, monitor=monitor, executor=executor,
             precision=shortest_edge(solid), ahead=ahead,
         )  # fmt: skip
-        unproved = _to_look_at(laid, domain.wall)
+        unproved = _to_look_at(laid, domain.boundary)
         if not unproved.any():
             return found
         surface = found.surface.with_octants(unproved, monitor)
-        more = len(surface.mesh.triangles) - len(found.on_wall)
-        return Trimmed(surface, np.pad(found.on_wall, (0, more)))
+        more = len(surface.mesh.triangles) - len(found.on_boundary)
+        return Trimmed(surface, np.pad(found.on_boundary, (0, more)))
 
     full = cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)
     return cleared_cut(
@@ -152,11 +152,11 @@ def cleared_cut(
     Raises:
         VolfrepError: nothing is left, or nothing would hold it.
     """
-    wall, precision = domain.wall, shortest_edge(solid)
+    boundary, precision = domain.boundary, shortest_edge(solid)
     surface, removed, lost = trimmed.surface, 0, 0.0
     if has_skin and not (with_skin or keep_pieces):
-        on_wall = np.flatnonzero(trimmed.on_wall)
-        held = clear(surface, smallest, monitor, keep=on_wall)
+        on_boundary = np.flatnonzero(trimmed.on_boundary)
+        held = clear(surface, smallest, monitor, keep=on_boundary)
         surface = held.surface
         removed, lost = held.pieces_removed, held.volume_removed
         if removed and not surface.triangles:
@@ -180,7 +180,7 @@ def cleared_cut(
     release_memory()
     if with_skin and is_less:
         # The cavity's surface counts as negative: what is left may be its wall only.
-        cavity = wall.volume
+        cavity = boundary.volume
         if cavity + cleared.quality.volume < NO_LATTICE * cavity:
             raise _nothing_holds()
     cleared = replace(
@@ -207,13 +207,13 @@ def cleared_cut(
     )
 
 
-def _to_look_at(laid: PlacedLattice, wall: TriangleMesh) -> Bools:
+def _to_look_at(laid: PlacedLattice, boundary: TriangleMesh) -> Bools:
     """(nx, ny, nz) bool, octants inside that are not right without a look at their triangles.
 
     Of the others files keep the vertices apart, and from what is new on the wall, and the surface
     turns back nowhere.
     """
-    inside, bounds = laid.kept.inside, wall.bounds
+    inside, bounds = laid.kept.inside, boundary.bounds
     if not laid.clearance > edge_within(bounds):
         return inside
     if laid.moved is not None:

@@ -31,7 +31,7 @@ _LEAST_SECTION = 0.05
 
 
 def with_grazing(
-    clipped: Clipped, lattice: Wireframe, wall: TriangleMesh, grazing: Ints
+    clipped: Clipped, lattice: Wireframe, boundary: TriangleMesh, grazing: Ints
 ) -> Clipped:
     """A clipped lattice and the struts whose sides alone reach in, as thin as what is inside.
 
@@ -40,16 +40,16 @@ def with_grazing(
     Args:
         clipped: the axes inside the wall.
         lattice: all the struts, mm.
-        wall: closed mesh that cuts them, mm.
+        boundary: closed mesh that cuts them, mm.
         grazing: struts without a piece inside, both of whose nodes are nearer to the wall than
             their joints' radius.
     """
     start, end = lattice.nodes[lattice.struts[grazing]].swapaxes(0, 1)
     places = np.array([1.0, 3.0, 5.0, 7.0]) / 8.0
     points = start[:, None] + places[:, None] * (end - start)[:, None]
-    off = closest_points(wall, points.reshape(-1, 3))[1].reshape(-1, len(places))
+    off = closest_points(boundary, points.reshape(-1, 3))[1].reshape(-1, len(places))
     # What the axis dips in by is as good as on the wall.
-    off[inside_points(wall, points.reshape(-1, 3), Monitor()).reshape(off.shape)] = 0.0
+    off[inside_points(boundary, points.reshape(-1, 3), Monitor()).reshape(off.shape)] = 0.0
     thick = lattice.radii[grazing].mean(axis=1)
     height = np.clip(off / thick[:, None], 0.0, 1.0)
     section = ((np.arccos(height) - height * np.sqrt(1.0 - height**2)) / np.pi).mean(axis=1)
@@ -87,7 +87,7 @@ def with_grazing(
     return _used(
         Clipped(
             joined,
-            np.concatenate([clipped.on_wall, np.ones(len(new), bool)]),
+            np.concatenate([clipped.on_boundary, np.ones(len(new), bool)]),
             np.concatenate([clipped.owner, added]),
             np.concatenate([low, np.zeros(number)]),
             np.concatenate([high, np.ones(number)]),
@@ -157,7 +157,7 @@ def tied(clipped: Clipped) -> Clipped:
     )
     more = Clipped(
         joined,
-        split.on_wall,
+        split.on_boundary,
         np.concatenate([split.owner, owner[between[:, 0]]]),
         np.concatenate([split.low, share[between[:, 0]]]),
         np.concatenate([split.high, share[between[:, 0]]]),
@@ -246,9 +246,9 @@ def _welded(clipped: Clipped, pairs: Ints) -> Clipped:
     row = pieces_of(pairs[:, 0], pairs[:, 1], len(frame.nodes))[1]
     number = np.bincount(row)
     nodes = np.stack([np.bincount(row, column) for column in frame.nodes.T], axis=1)
-    joints, walls = np.zeros(len(number)), np.zeros(len(number), bool)
+    joints, at_boundary = np.zeros(len(number)), np.zeros(len(number), bool)
     np.maximum.at(joints, row, frame.joint_radii)
-    np.logical_or.at(walls, row, clipped.on_wall)
+    np.logical_or.at(at_boundary, row, clipped.on_boundary)
     struts = row[frame.struts]
     kept = struts[:, 0] != struts[:, 1]
     made = Wireframe(
@@ -256,7 +256,7 @@ def _welded(clipped: Clipped, pairs: Ints) -> Clipped:
     )
     return _used(
         Clipped(
-            made, walls, clipped.owner[kept], clipped.low[kept], clipped.high[kept],
+            made, at_boundary, clipped.owner[kept], clipped.low[kept], clipped.high[kept],
             clipped.warnings,
         )
     )  # fmt: skip
@@ -298,7 +298,7 @@ def _split(clipped: Clipped, strut: Ints, share: Floats) -> tuple[Clipped, Ints]
     return (
         Clipped(
             made,
-            np.concatenate([clipped.on_wall, np.zeros(len(cuts), bool)]),
+            np.concatenate([clipped.on_boundary, np.zeros(len(cuts), bool)]),
             clipped.owner[piece],
             start + low * span,
             start + high * span,
@@ -327,4 +327,4 @@ def _used(clipped: Clipped) -> Clipped:
         frame.nodes[used], rows.reshape(-1, 2).astype(np.int32), frame.radii,
         frame.joint_radii[used],
     )  # fmt: skip
-    return replace(clipped, wireframe=made, on_wall=clipped.on_wall[used])
+    return replace(clipped, wireframe=made, on_boundary=clipped.on_boundary[used])

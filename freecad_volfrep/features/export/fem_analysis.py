@@ -88,9 +88,9 @@ def vertices(shape: App.DocumentObject) -> tuple[App.DocumentObject, list[str]]:
 
 
 def _beams(doc: App.Document, obj: App.DocumentObject, material: Material) -> Any:
-    model, on_wall = beams_of(obj, section="circle", elements_per_strut=ELEMENTS_PER_STRUT)
+    model, on_boundary = beams_of(obj, section="circle", elements_per_strut=ELEMENTS_PER_STRUT)
     with all_or_nothing(doc):
-        return go_through(_title(obj), _beam_steps(doc, obj, material, model, on_wall))
+        return go_through(_title(obj), _beam_steps(doc, obj, material, model, on_boundary))
 
 
 def _beam_steps(
@@ -98,7 +98,7 @@ def _beam_steps(
     obj: App.DocumentObject,
     material: Material,
     model: BeamMesh,
-    on_wall: NDArray[np.bool_],
+    on_boundary: NDArray[np.bool_],
 ) -> Generator[float, None, Any]:
     """The analysis of beams: the share that is done after each step, and the analysis."""
     from freecad_volfrep.bridge.fem_meshes import beam_mesh, points_shape, runs_of
@@ -112,7 +112,7 @@ def _beam_steps(
             "lattice as beams for CalculiX."
         )
     joints = model.nodes[: model.joints]
-    on_skin = np.flatnonzero(on_wall)
+    on_skin = np.flatnonzero(on_boundary)
     sets = {"SKIN": on_skin, "JOINTS": np.arange(len(joints)), **sides(joints)}
     mesh = yield from beam_mesh(model, sets)
 

@@ -158,11 +158,12 @@ def _sides(obj: App.DocumentObject, made_of: Ingredients) -> tuple[np.ndarray, n
         VolfrepError: the wall cuts too many joints.
         Cancelled: in the window, by the user.
     """
-    from volfrep.jobs.beam_part import joints_at_wall
+    from volfrep.jobs.beam_part import joints_at_boundary
     from volfrep.process.worker import Call
 
     whole, cut = run_job(
-        job_title("Struts of {label}", obj), Call(joints_at_wall, (made_of.lattice, made_of.domain))
+        job_title("Struts of {label}", obj),
+        Call(joints_at_boundary, (made_of.lattice, made_of.domain)),
     )
     if np.count_nonzero(cut) > MOST_CUT_JOINTS:
         raise VolfrepError(

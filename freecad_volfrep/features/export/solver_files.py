@@ -132,7 +132,7 @@ def pieces_of(obj: App.DocumentObject, row: Form) -> Given:
             made = replace(made, outside=placed(solid, place_in_document(obj)))
     if AXES in row.needs:
         cut = axes_of(obj)  # which says what is to be said of it
-        made = replace(made, axes=Axes(cut.wireframe, cut.on_wall))
+        made = replace(made, axes=Axes(cut.wireframe, cut.on_boundary))
     return made
 
 
@@ -293,13 +293,13 @@ def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamMesh, np.ndar
     spec = inputs_of(obj)[1]
     call = Call(
         fitted_beams,
-        (clipped.wireframe, clipped.on_wall, spec.kind.cube, spec.cell_size),
+        (clipped.wireframe, clipped.on_boundary, spec.kind.cube, spec.cell_size),
         options,
         has_progress=False,
     )
     model, said = run_job(job_title("Beams of {label}", obj), call)
     warn(obj, said + deformed_struts(spec.grid, spec.struts))
-    return model, clipped.on_wall
+    return model, clipped.on_boundary
 
 
 def tetrahedra_of(obj: App.DocumentObject) -> TetrahedralMesh:

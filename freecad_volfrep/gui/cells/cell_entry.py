@@ -12,7 +12,7 @@ from volfrep.design.cells import LIBRARY, UnitCell
 from volfrep.design.tpms import SURFACES, PeriodicSurface
 from volfrep.mechanics.endless import stretched_strains
 
-from .cell_picture import cell_icon, wall_icon
+from .cell_picture import cell_icon, tpms_icon
 
 _CONTEXT = "VolfrepCells"
 #: What cells are for, as `volfrep.design.cells.USES` has it; and walls.
@@ -105,18 +105,18 @@ class StrutEntry(Entry):
         )
 
 
-class WallEntry(Entry):
+class TpmsEntry(Entry):
     """A surface that walls follow."""
 
     use = "walls"
 
     def icon(self, size: int) -> Any:
         """Its picture."""
-        return wall_icon(self.cell.name, size)
+        return tpms_icon(self.cell.name, size)
 
 
 #: By the class of a cell.
-ENTRIES: dict[type, type[Entry]] = {UnitCell: StrutEntry, PeriodicSurface: WallEntry}
+ENTRIES: dict[type, type[Entry]] = {UnitCell: StrutEntry, PeriodicSurface: TpmsEntry}
 
 
 def entry_of(

@@ -53,7 +53,7 @@ def cell_icon(cell: UnitCell | None, size: int = 72) -> QtGui.QIcon:
     return QtGui.QIcon(pixmap)
 
 
-def wall_icon(name: str, size: int = 72) -> QtGui.QIcon:
+def tpms_icon(name: str, size: int = 72) -> QtGui.QIcon:
     """A cell of walls seen from a corner: where they meet the faces of its cube.
 
     Of a formula of one's own the cube is empty.

@@ -137,8 +137,8 @@ class Struts:
 
     def __init__(self, node: Any, shown: Preview) -> None:
         self._look, self._inside = drawing.material((0.0, 0.0, 0.0)), None
-        if shown.wall is not None:
-            self._draw_faces(node, shown.wall)
+        if shown.surface is not None:
+            self._draw_faces(node, shown.surface)
             return
         if len(shown.start) > preferences.read(preferences.MOST_PRISMS):
             lines = drawing.lines(shown.start, shown.end, LINE_WIDTH)

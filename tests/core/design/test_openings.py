@@ -16,7 +16,7 @@ from volfrep.jobs.beam_part import clipped_infill
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh, compact
-from volfrep.shell.offset import inner_wall
+from volfrep.shell.offset import find_cavity
 from volfrep.spatial.proximity import closest_points
 from volfrep.spatial.rays import inside_points
 from volfrep.util.cache import StageCache
@@ -74,7 +74,7 @@ def test_an_open_part_is_where_skin_or_lattice_is():
 def test_the_skin_keeps_its_thickness_up_to_the_open_face():
     solid = samples.plate()
     is_open = open_triangles(solid, (OpenPlane((0.0, 0.0, 12.0), (0.0, 0.0, 1.0)),))
-    wall = inner_wall(solid, 2.0, Monitor(), is_open).mesh
+    wall = find_cavity(solid, 2.0, Monitor(), is_open).mesh
     assert quality.measure(wall).watertight
     skin = compact(TriangleMesh(solid.vertices, solid.triangles[~is_open]))
     a, b, c = wall.corners()
@@ -125,13 +125,13 @@ def test_struts_that_end_in_an_open_face_have_a_free_end():
 @pytest.mark.slow
 def test_beams_are_not_held_in_an_open_face():
     clipped = clipped_infill(samples.box(), replace(SPEC, origin=(0.0, 0.0, 1.0)))
-    nodes, on_wall = clipped.wireframe.nodes, clipped.on_wall
+    nodes, on_boundary = clipped.wireframe.nodes, clipped.on_boundary
     flush = np.abs(nodes[:, 2] - 20.0) < 1e-9
     low = np.abs(nodes[:, 2] - 2.0) < 1e-3
     assert flush.sum() > 10
     assert low.sum() > 10
-    assert not on_wall[flush].any()
-    assert on_wall[low].all()
+    assert not on_boundary[flush].any()
+    assert on_boundary[low].all()
 
 
 def test_a_patch_of_facets_finds_the_face_it_was_taken_from():

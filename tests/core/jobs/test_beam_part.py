@@ -100,7 +100,7 @@ def test_the_cache_of_a_fill_is_used(monkeypatch):
     cache = StageCache()
     solid = samples.box((40, 30, 20))
     fill(solid, SPEC, cache=cache)
-    monkeypatch.setattr("volfrep.shell.domain.inner_wall", None)
+    monkeypatch.setattr("volfrep.shell.domain.find_cavity", None)
     assert len(beam_model(solid, SPEC, cache=cache).lattice.struts)
 
 

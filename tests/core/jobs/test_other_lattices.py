@@ -59,8 +59,8 @@ def test_a_preview_has_the_figures_of_what_is_made(more: dict[str, object]) -> N
         assert shown.struts == pytest.approx(made.struts, rel=0.1 if more["network"] is BONE else 1)
         assert len(shown.start) >= shown.struts
         return
-    assert shown.wall is not None
-    found = inspect(shown.wall).quality
+    assert shown.surface is not None
+    found = inspect(shown.surface).quality
     assert found.watertight
     lattice = made.relative_density * made.domain_volume_mm3
     assert 0.7 * lattice < found.volume < 1.6 * lattice  # thin sheets are drawn thicker

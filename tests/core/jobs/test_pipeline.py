@@ -133,7 +133,7 @@ def test_only_the_stages_that_a_change_affects_run_again(monkeypatch):
 
     runs = []
     for module, name in (
-        (domain, "inner_wall"),
+        (domain, "find_cavity"),
         (active_cells, "active_cells"),
         (strut_lattice, "mesh_octants"),
     ):
@@ -154,12 +154,12 @@ def test_only_the_stages_that_a_change_affects_run_again(monkeypatch):
         )
         return set(runs)
 
-    assert stages() == {"inner_wall", "active_cells", "mesh_octants"}
+    assert stages() == {"find_cavity", "active_cells", "mesh_octants"}
     assert stages() == set()
     assert stages(strut_radius=0.9) == {"mesh_octants"}
     assert stages(strut_radius=0.9, cell_size=7) == {"active_cells", "mesh_octants"}
     assert stages(strut_radius=0.9, cell_size=7, density=3.0) == set()
-    assert stages(strut_radius=0.9, cell_size=7, shell=1.5) == {"inner_wall", "active_cells"}
+    assert stages(strut_radius=0.9, cell_size=7, shell=1.5) == {"find_cavity", "active_cells"}
 
 
 @pytest.mark.costly
@@ -204,9 +204,9 @@ def test_a_block_larger_than_memory_is_refused_before_it_is_made():
 def test_a_skin_that_strays_is_said_in_the_report(monkeypatch):
     from volfrep.shell import domain
 
-    original = domain.inner_wall
+    original = domain.find_cavity
     monkeypatch.setattr(
-        domain, "inner_wall", lambda *a: replace(original(*a), worst=0.2, place=np.ones(3))
+        domain, "find_cavity", lambda *a: replace(original(*a), worst=0.2, place=np.ones(3))
     )
     (warning,) = fill(samples.box(), SMALL).report.warnings
     assert "20% off its thickness near (1, 1, 1)" in warning

@@ -55,8 +55,8 @@ def test_the_outside_of_a_box_is_its_faces_and_the_wall_a_smaller_box(grading):
     wall = area(mesh, kinds == WALL)
     # Struts stand on the wall: some of it is missing, and nothing is too much.
     assert 0.5 * faces(SIZE - 2 * SHELL) < wall < faces(SIZE - 2 * SHELL)
-    on_wall = depth(mesh.vertices[mesh.triangles[kinds == WALL]].reshape(-1, 3))
-    assert np.abs(on_wall - SHELL).max() < 0.02 * SHELL
+    on_boundary = depth(mesh.vertices[mesh.triangles[kinds == WALL]].reshape(-1, 3))
+    assert np.abs(on_boundary - SHELL).max() < 0.02 * SHELL
     middles = depth(mesh.vertices[mesh.triangles[kinds == LATTICE]].mean(axis=1))
     assert middles.min() > SHELL * (1 - 1e-5)
 

@@ -10,7 +10,7 @@ import samples
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.shell import crossing_plugs
 from volfrep.shell.crossing_plugs import crossed_along, find_new_crossings, without_crossings
-from volfrep.shell.offset import inner_wall
+from volfrep.shell.offset import find_cavity
 from volfrep.spatial.piercing import piercing_pairs
 from volfrep.util.progress import Monitor
 from walls import wall_errors
@@ -32,7 +32,7 @@ def is_manifold(mesh):
 def test_a_housing_whose_walls_are_hardly_thicker_than_two_skins():
     solid, thickness = samples.housing(), 5.0
     monitor = Monitor()
-    wall = inner_wall(solid, thickness, monitor)
+    wall = find_cavity(solid, thickness, monitor)
     assert not len(piercing_pairs(wall.mesh))
     assert trimesh.Trimesh(wall.mesh.vertices, wall.mesh.triangles, process=False).is_watertight
     assert np.abs(wall_errors(solid, wall.mesh, thickness)).max() < 0.05

@@ -10,7 +10,7 @@ from bench.parts import NO_PARTS, PARTS
 from volfrep.io.solid import read_solid
 from volfrep.mesh.triangle_mesh import concatenate
 from volfrep.shell import offset
-from volfrep.shell.offset import inner_wall
+from volfrep.shell.offset import find_cavity
 from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.util.errors import Cancelled, VolfrepError
 from volfrep.util.progress import Monitor
@@ -31,7 +31,7 @@ def check_closed(wall, thickness, crossing_share=0.0):
 
 
 def test_a_box_gives_the_smaller_box():
-    wall = inner_wall(samples.box(), 3.0, Monitor()).mesh
+    wall = find_cavity(samples.box(), 3.0, Monitor()).mesh
     check_closed(wall, 3.0)
     np.testing.assert_allclose(wall.bounds, [[3.0, 3.0, 3.0], [37.0, 27.0, 17.0]], atol=1e-6)
     assert wall.volume == pytest.approx(34.0 * 24.0 * 14.0, rel=1e-6)
@@ -40,7 +40,7 @@ def test_a_box_gives_the_smaller_box():
 
 def test_a_sphere_gives_the_smaller_sphere():
     solid = samples.sphere(20.0, 5)
-    wall = inner_wall(solid, 3.0, Monitor()).mesh
+    wall = find_cavity(solid, 3.0, Monitor()).mesh
     check_closed(wall, 3.0)
     radius = np.linalg.norm(wall.vertices, axis=1)
     assert radius.min() > 16.9
@@ -52,7 +52,7 @@ def test_a_sphere_gives_the_smaller_sphere():
 @pytest.mark.parametrize("turn", [0.0, 33.0])
 def test_a_bracket_has_sharp_and_round_edges_where_it_should(turn):
     solid = samples.bracket(turn)
-    wall = inner_wall(solid, 2.0, Monitor()).mesh
+    wall = find_cavity(solid, 2.0, Monitor()).mesh
     check_closed(wall, 2.0)
     assert np.abs(wall_errors(solid, wall, 2.0)).max() < 0.05
     # Mitred outside corners, and round the inner edge of the L a quarter of a cylinder of
@@ -64,7 +64,7 @@ def test_a_bracket_has_sharp_and_round_edges_where_it_should(turn):
 @pytest.mark.slow
 def test_a_plate_with_holes_keeps_its_wall_round_them():
     solid = samples.plate()
-    wall = inner_wall(solid, 2.0, Monitor()).mesh
+    wall = find_cavity(solid, 2.0, Monitor()).mesh
     check_closed(wall, 2.0)
     assert np.abs(wall_errors(solid, wall, 2.0)).max() < 0.05
     area = 56.0 * 36.0 - 3.0 * np.pi * 7.0**2
@@ -74,19 +74,19 @@ def test_a_plate_with_holes_keeps_its_wall_round_them():
 
 def test_what_is_thin_everywhere_stays_solid():
     for thickness in (5.9, 6.0, 10.0, 30.0):
-        wall = inner_wall(samples.plate(), thickness, Monitor()).mesh
+        wall = find_cavity(samples.plate(), thickness, Monitor()).mesh
         if thickness >= 6.0:
             assert not len(wall.triangles)
             assert wall.volume == 0.0
     ball = samples.sphere(20.0, 3)
-    assert not len(inner_wall(ball, 20.0, Monitor()).mesh.triangles)
+    assert not len(find_cavity(ball, 20.0, Monitor()).mesh.triangles)
 
 
 def test_a_cavity_has_a_wall_too():
     hollow = concatenate(
         samples.box(), samples.box((20.0, 10.0, 6.0), (10.0, 10.0, 7.0)).reversed()
     )
-    wall = inner_wall(hollow, 2.0, Monitor()).mesh
+    wall = find_cavity(hollow, 2.0, Monitor()).mesh
     check_closed(wall, 2.0)
     assert np.abs(wall_errors(hollow, wall, 2.0)).max() < 0.05
     # The box less the cavity grown by 2 with round edges and corners.
@@ -99,7 +99,7 @@ def test_a_cavity_has_a_wall_too():
 def test_a_wall_too_thin_for_memory_is_refused(monkeypatch):
     monkeypatch.setattr(offset, "MEMORY_LIMIT", offset.MEMORY_LIMIT / 100)
     with pytest.raises(VolfrepError, match=r"wall of 0\.01 mm is too thin.*at least"):
-        inner_wall(samples.box(), 0.01, Monitor())
+        find_cavity(samples.box(), 0.01, Monitor())
 
 
 def test_no_skin_is_advised_that_the_part_has_no_room_for(monkeypatch):
@@ -107,7 +107,7 @@ def test_no_skin_is_advised_that_the_part_has_no_room_for(monkeypatch):
     monkeypatch.setattr(offset, "MEMORY_LIMIT", offset.MEMORY_LIMIT / 100)
     plate = samples.box((2_000.0, 2_000.0, 0.5))
     with pytest.raises(VolfrepError, match=r"nowhere deeper than about 0\.2.* without a skin"):
-        inner_wall(plate, 0.02, Monitor())
+        find_cavity(plate, 0.02, Monitor())
 
 
 @pytest.mark.costly
@@ -119,7 +119,7 @@ def test_cancel_is_honoured_in_time():
         return len(asked) < 8
 
     with pytest.raises(Cancelled):
-        inner_wall(samples.plate(), 0.3, Monitor(callback))
+        find_cavity(samples.plate(), 0.3, Monitor(callback))
     assert len(asked) == 8
 
 
@@ -127,7 +127,7 @@ def test_cancel_is_honoured_in_time():
 @needs_parts
 def test_the_industrial_bracket():
     solid = read_solid(PARTS / "ge_bracket.stl")
-    wall = inner_wall(solid, 3.0, Monitor()).mesh
+    wall = find_cavity(solid, 3.0, Monitor()).mesh
     check_closed(wall, 3.0)
     assert np.abs(wall_errors(solid, wall, 3.0)).max() < 0.05
     many = np.abs(wall_errors(solid, wall, 3.0, 100_000))
@@ -150,7 +150,7 @@ def test_the_industrial_bracket():
 def test_parts_with_room_thinner_than_a_voxel(name, thickness):
     """Finer voxels are tried there; what is left are a few places where the wall is thicker."""
     solid = read_solid(PARTS / name)
-    wall = inner_wall(solid, thickness, Monitor()).mesh
+    wall = find_cavity(solid, thickness, Monitor()).mesh
     check_closed(wall, thickness, crossing_share=0.003)
     errors = wall_errors(solid, wall, thickness)
     assert errors.min() > -0.05

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep.shell.offset import inner_wall
+from volfrep.shell.offset import find_cavity
 from volfrep.shell.sampled_depth import cube_grid
 from volfrep.shell.smooth_regions import find_smooth_regions
 from volfrep.spatial.proximity import closest_points, index_surface, sample_triangles
@@ -42,7 +42,7 @@ def test_the_distance_to_a_surface_with_fewer_samples_is_right_where_the_wall_is
     solid = samples.sheet((28.0, 28.0, 3.0))
     plain, _ = found(solid)
     index = index_surface(solid, 0.3 * SKIN, (plain.samples, plain.owner))
-    wall = inner_wall(solid, SKIN, Monitor()).mesh
+    wall = find_cavity(solid, SKIN, Monitor()).mesh
     random = np.random.default_rng(3)
     at = wall.vertices[wall.triangles].mean(axis=1)[random.integers(0, len(wall.triangles), 4000)]
     at += random.normal(0.0, 0.3 * SKIN, at.shape)
@@ -56,7 +56,7 @@ def test_the_distance_to_a_surface_with_fewer_samples_is_right_where_the_wall_is
 @pytest.mark.parametrize("skin", [pytest.param(0.15, marks=pytest.mark.slow), 0.3])
 def test_the_wall_of_a_sheet_is_right_round_a_small_hole_too(skin):
     solid = samples.sheet((30.0, 30.0, 3.0))
-    wall = inner_wall(solid, skin, Monitor())
+    wall = find_cavity(solid, skin, Monitor())
     errors = np.abs(wall_errors(solid, wall.mesh, skin))
     assert errors.max() < 0.05
     assert np.quantile(errors, 0.99) < 0.02

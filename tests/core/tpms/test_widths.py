@@ -30,7 +30,7 @@ def test_a_skeletons_neck_is_the_ball_that_just_fits_through_it() -> None:
     # the diagonal, at 2 pi / 3.
     neck = 2.0 * (np.pi / 3.0) * 2.0**0.5 / (2.0 * np.pi)
     spec = LatticeSpec("Schwarz P", 10.0, shell=0.0, wall=TpmsSheet("skeleton"))
-    thickness, gap = lattice_kind(spec).walls()
+    thickness, gap = lattice_kind(spec).sheet_and_gap()
     assert thickness == pytest.approx(10.0 * neck, rel=0.04)
     assert gap == pytest.approx(10.0 * neck, rel=0.04)  # the other side is alike
     assert lattice_kind(spec).largest_ball() == pytest.approx(10.0 * neck, rel=0.02)
@@ -38,9 +38,9 @@ def test_a_skeletons_neck_is_the_ball_that_just_fits_through_it() -> None:
 
 def test_a_sheet_keeps_its_thickness_where_cells_are_bent_and_nothing_is_said_of_gaps() -> None:
     spec = LatticeSpec("Gyroid", 9.0, wall=TpmsSheet("sheet", 0.8), cell_map=CellMap("cylindrical"))
-    assert lattice_kind(spec).walls() == (0.8, None)
+    assert lattice_kind(spec).sheet_and_gap() == (0.8, None)
     assert lattice_kind(spec).largest_ball() is None
-    assert lattice_kind(LatticeSpec("BCC")).walls() == (None, None)
+    assert lattice_kind(LatticeSpec("BCC")).sheet_and_gap() == (None, None)
 
 
 @pytest.mark.slow

@@ -310,7 +310,7 @@ def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
             # One triangle of the first group is lost.
             spoilt.append(True)
             mesh = TriangleMesh(piece.mesh.vertices, piece.mesh.triangles[:-1])
-            return replace(piece, mesh=mesh, on_wall=piece.on_wall[:-1], rim=rim_of(mesh))
+            return replace(piece, mesh=mesh, on_boundary=piece.on_boundary[:-1], rim=rim_of(mesh))
         return piece
 
     monkeypatch.setattr(boolean_trim, "cut_group", spoiling)

@@ -49,7 +49,7 @@ def test_cut_at_a_box(cell):
     kept = expected[expected > 0.5]  # shorter pieces are dropped
     assert lengths(clipped.wireframe).sum() == pytest.approx(kept.sum(), rel=1e-9)
     assert len(clipped.wireframe.struts) == len(kept)
-    walls = clipped.wireframe.nodes[clipped.on_wall]
+    walls = clipped.wireframe.nodes[clipped.on_boundary]
     off = np.minimum(np.abs(walls - low), np.abs(walls - high)).min(axis=1)
     is_node = np.isin(walls.round(6), frame.nodes.round(6)).all(axis=1)
     assert (off[~is_node] < 1e-9).all()
@@ -80,7 +80,7 @@ def test_a_lattice_that_the_wall_does_not_touch():
     frame = lattice((2, 2, 2))
     whole = clip(frame, samples.box((100.0, 100.0, 100.0), (-40.0, -40.0, -40.0)))
     assert len(whole.wireframe.struts) == len(frame.struts)
-    assert not whole.on_wall.any()
+    assert not whole.on_boundary.any()
     nothing = clip(frame, samples.box((5.0, 5.0, 5.0), (100.0, 100.0, 100.0)))
     assert len(nothing.wireframe.struts) == len(nothing.wireframe.nodes) == 0
 
@@ -94,7 +94,7 @@ def test_radii_of_a_cut_cone():
     )
     clipped = clip(frame, samples.box((6.0, 8.0, 8.0), (2.0, -4.1, -4.2)))
     assert clipped.wireframe.radii == pytest.approx(np.array([[1.8, 1.2]]))
-    assert clipped.on_wall.tolist() == [True, True]
+    assert clipped.on_boundary.tolist() == [True, True]
     assert clipped.wireframe.nodes[clipped.wireframe.struts[0]] == pytest.approx(
         np.array([[2.0, 0, 0], [8, 0, 0]])
     )
@@ -124,7 +124,7 @@ def test_an_infill_is_cut_at_its_inner_wall():
     assert lengths(frame).sum() == pytest.approx(24 * 8 * np.sqrt(3) / 2 * 8, rel=0.01)
     low, high = np.full(3, 2.0), np.array([34.0, 26.0, 18.0])
     off = np.minimum(frame.nodes - low, high - frame.nodes).min(axis=1)
-    assert np.array_equal(off < 1e-5, clipped.on_wall)
+    assert np.array_equal(off < 1e-5, clipped.on_boundary)
 
 
 def test_struts_still_meet_where_the_wall_goes_through_their_joint():
@@ -135,7 +135,7 @@ def test_struts_still_meet_where_the_wall_goes_through_their_joint():
     assert len(frame.nodes) == len(whole.nodes)
     assert len(frame.struts) == len(whole.struts)
     # The corners of the cells lie in the box's surface, the middles inside.
-    assert np.array_equal(clipped.on_wall, np.bincount(frame.struts.ravel()) < 8)
+    assert np.array_equal(clipped.on_boundary, np.bincount(frame.struts.ravel()) < 8)
 
 
 def test_nothing_inside():

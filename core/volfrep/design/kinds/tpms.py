@@ -36,8 +36,8 @@ class Tpms(Kind):
     @property
     def endless(self) -> Mapping[str, Any]:
         """The surface, and what is solid beside it."""
-        wall = {"wall_kind": self.spec.wall.kind, self.measure: self.thickness}
-        return {"cell": self.surface, "cell_size": self.spec.cell_size, **wall}
+        sheet = {"wall_kind": self.spec.wall.kind, self.measure: self.thickness}
+        return {"cell": self.surface, "cell_size": self.spec.cell_size, **sheet}
 
     def content_of_0_1_0(self) -> Sequence[NDArray[Any]]:
         """Nothing."""
@@ -88,10 +88,10 @@ class Tpms(Kind):
 
     def of_thickness(self, value: float) -> dict[str, Any]:
         """The field of walls of such a thickness, or offset, in mm."""
-        wall = self.spec.wall
-        if wall.is_sheet:
-            return {"wall": replace(wall, thickness=value)}
-        return {"wall": replace(wall, offset=value)}
+        sheet = self.spec.wall
+        if sheet.is_sheet:
+            return {"wall": replace(sheet, thickness=value)}
+        return {"wall": replace(sheet, offset=value)}
 
     @property
     def mean_radius(self) -> float:

@@ -33,7 +33,7 @@ def check_print(
         density=spec.density,
         domain=domain,
         ball_mm=kind.largest_ball(),
-        walls_mm=kind.walls(),
+        sheet_and_gap_mm=kind.sheet_and_gap(),
     )
 
 

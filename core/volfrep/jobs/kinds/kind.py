@@ -359,7 +359,7 @@ class LatticeKind(ABC):
         """Diameter of the largest ball that passes through, mm; None where windows all differ."""
         return None
 
-    def walls(self) -> tuple[float | None, float | None]:
+    def sheet_and_gap(self) -> tuple[float | None, float | None]:
         """The least thickness of walls and the least gap between them, mm; None: not known."""
         return None, None
 

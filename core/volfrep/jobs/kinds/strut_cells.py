@@ -150,8 +150,8 @@ class StrutCellKind(LatticeKind):
         for name, (value, unit) in numbers.items():
             if value is not None:
                 number(name, value, unit, positive=None)
-        of_walls = request.wall_kind or request.wall_formula
-        if request.given not in (["strut radius"], ["relative density"]) or of_walls:
+        of_tpms = request.wall_kind or request.wall_formula
+        if request.given not in (["strut radius"], ["relative density"]) or of_tpms:
             raise VolfrepError("Of struts give either a strut radius or a relative density.")
         if request.as_printed is not None:
             from ...design.as_printed import find_printed_table

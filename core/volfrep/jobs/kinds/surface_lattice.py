@@ -43,9 +43,9 @@ class SurfaceLattice(PartLattice):
         full = VolfrepError(
             "The struts fill the whole part: make them thinner, or take fewer of them."
         )
-        wall = part.domain.wall
-        mesh, on_wall = cut_mesh(wall, self.surface, cavity=with_skin, monitor=self.monitor)
-        trimmed = Trimmed(TrimmedSurface(mesh), on_wall)
+        boundary = part.domain.boundary
+        mesh, on_boundary = cut_mesh(boundary, self.surface, cavity=with_skin, monitor=self.monitor)
+        trimmed = Trimmed(TrimmedSurface(mesh), on_boundary)
         return cleared_cut(
             trimmed, part.solid, part.domain, self.smallest, full, self.monitor,
             has_skin=spec.skin is not None, with_skin=with_skin, keep_pieces=spec.keep_pieces,

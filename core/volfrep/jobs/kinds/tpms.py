@@ -111,7 +111,7 @@ class TpmsKind(LatticeKind):
         samples = solid.samples(BALL_PLACES, 1.0)[:-1, :-1, :-1]
         return ball_through(samples) * spec.cell_size
 
-    def walls(self) -> tuple[float | None, float | None]:
+    def sheet_and_gap(self) -> tuple[float | None, float | None]:
         """A sheet has its thickness wherever it is.
 
         Gaps, and what a side of a surface has, are those of the endless wall, and not known where
@@ -137,15 +137,17 @@ class TpmsKind(LatticeKind):
                 "Surfaces have no values of their own: they are for cells of struts."
             )
         kind = request.wall_kind or KINDS[0]
-        wall = TpmsSheet(
+        sheet = TpmsSheet(
             kind,
             1.0 if request.wall_thickness is None else request.wall_thickness,
             0.0 if request.wall_offset is None else request.wall_offset,
         )
-        if request.given not in ([wall.called], ["relative density"]) or request.fillet:
-            raise VolfrepError(f"Of a {kind} give the {wall.called} or the relative density alone.")
+        if request.given not in ([sheet.called], ["relative density"]) or request.fillet:
+            raise VolfrepError(
+                f"Of a {kind} give the {sheet.called} or the relative density alone."
+            )
         return tpms_properties(
-            cell, cell_size, wall, relative_density=request.relative_density,
+            cell, cell_size, sheet, relative_density=request.relative_density,
             material=request.material, along=request.along,
         )  # fmt: skip
 

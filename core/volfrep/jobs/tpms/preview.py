@@ -108,8 +108,8 @@ def _surface(
     levels = _levels(points, spec, where.placement, lambda some: deep(some) + spec.shell)
     if spec.wall.is_sheet:
         levels = np.maximum(levels, 0.5 * THINNEST * pitch)
-    walls = where.sided(points) - levels
-    field = np.maximum(walls, -deep(points))
+    sheet = where.sided(points) - levels
+    field = np.maximum(sheet, -deep(points))
     field = np.pad(field.reshape(tuple(number)), 1, constant_values=pitch)
     if field.min() >= 0.0:
         raise VolfrepError("No wall lies inside the skin: reduce the skin thickness.")

@@ -25,26 +25,26 @@ class TpmsProperties(CellProperties):
     """What an endless lattice of walls does.
 
     Attributes:
-        wall: what is solid beside the surface.
+        sheet: what is solid beside the surface.
     """
 
-    wall: TpmsSheet
+    sheet: TpmsSheet
 
     def _size(self) -> dict[str, Any]:
-        kind, *sizes = self.wall.as_plain().items()
+        kind, *sizes = self.sheet.as_plain().items()
         return {"wall_kind": kind[1], **{f"wall_{name}_mm": value for name, value in sizes}}
 
     def _sized(self) -> str:
-        wall = self.wall
-        if wall.is_sheet:
-            return f"{wall.kind} {wall.thickness:.5g} mm thick"
-        return f"{wall.kind}, offset {wall.offset:.5g} mm"
+        sheet = self.sheet
+        if sheet.is_sheet:
+            return f"{sheet.kind} {sheet.thickness:.5g} mm thick"
+        return f"{sheet.kind}, offset {sheet.offset:.5g} mm"
 
 
 def tpms_properties(
     surface: PeriodicSurface,
     cell_size: float,
-    wall: TpmsSheet,
+    sheet: TpmsSheet,
     *,
     relative_density: float | None = None,
     material: SolidMaterial | None = None,
@@ -55,7 +55,7 @@ def tpms_properties(
     Args:
         surface: where it goes along.
         cell_size: L, mm.
-        wall: what is solid beside the surface.
+        sheet: what is solid beside the surface.
         relative_density: in place of the wall's thickness or offset, which is then found.
         material: the solid; None: figures in units of the solid's.
         along: voxels along L of the finest of three grids; None for what the thickness asks for.
@@ -64,13 +64,13 @@ def tpms_properties(
         VolfrepError: no wall has that density, or it carries no load.
     """
     poisson = POISSON if material is None else material.poisson
-    solid = TpmsSolid.of(surface, wall, cell_size)
+    solid = TpmsSolid.of(surface, sheet, cell_size)
     octant = is_mirror_symmetric(solid)
     if relative_density is not None:
         solid = of_density(solid, relative_density, octant=octant)
         level = cell_size * solid.level
-        thick = {"thickness": 2.0 * level} if wall.is_sheet else {"offset": level}
-        wall = TpmsSheet(wall.kind, **thick)
+        thick = {"thickness": 2.0 * level} if sheet.is_sheet else {"offset": level}
+        sheet = TpmsSheet(sheet.kind, **thick)
     density, error = tpms_density(solid, octant=octant)
     if density >= 1.0:
         raise VolfrepError(
@@ -82,7 +82,7 @@ def tpms_properties(
     result.errors["relative_density"] = error
     return TpmsProperties(
         surface.name, cell_size, 0.0, 0.0, density, material, result.stiffness, result.values,
-        result.errors, result.von_mises, found.along[-1], wall,
+        result.errors, result.von_mises, found.along[-1], sheet,
     )  # fmt: skip
 
 

@@ -73,7 +73,7 @@ def tpms_modulus(spec: LatticeSpec, target: Target) -> float:
     Raises:
         VolfrepError: they carry no load.
     """
-    return modulus_along(_of_wall(surface_of(spec), spec.wall, spec.cell_size), target)
+    return modulus_along(_of_sheet(surface_of(spec), spec.wall, spec.cell_size), target)
 
 
 @lru_cache(maxsize=64)
@@ -89,8 +89,8 @@ def _of_share(surface: PeriodicSurface, kind: str, share: float, fineness: float
 
 
 @lru_cache(maxsize=16)
-def _of_wall(surface: PeriodicSurface, wall: TpmsSheet, cell_size: float) -> Floats:
-    solid = TpmsSolid.of(surface, wall, cell_size)
+def _of_sheet(surface: PeriodicSurface, sheet: TpmsSheet, cell_size: float) -> Floats:
+    solid = TpmsSolid.of(surface, sheet, cell_size)
     octant = is_mirror_symmetric(solid)
     return _tensor(solid, tpms_density(solid, octant=octant)[0], surface.name, _FINE)
 

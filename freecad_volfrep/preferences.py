@@ -71,7 +71,7 @@ CUT_COLOUR = Colour("CutColour", 0xFA9429FF)
 OVERHANG_COLOUR = Colour("OverhangColour", 0xD9291FFF)
 THREADS = Preference("Threads", 0, 1, 256, automatic=True)
 
-#: The likeness of a mesh that is too large has this share of the triangles that may be shown.
+#: The proxy of a mesh that is too large has this share of the triangles that may be shown.
 LIKENESS = 0.25
 
 #: All of them, as the tests and the page see them.

@@ -30,12 +30,12 @@ from .printing.slicer_view import SlicerInfillView as SlicerInfillView  # saved 
 from .qt import QtCore, QtGui
 from .study.study_panel import open_study
 from .undo import complete_steps
-from .view.coarse_view import COARSE, show_likeness
+from .view.coarse_view import COARSE, show_proxy
 from .view.filled_view import FILLED, FilledPart, show_filled
 from .view.simplified_view import SIMPLIFIED, SimplifiedPart
 
 #: The modes beside those of every mesh, and what fills a node for each.
-_MODES = {FILLED: show_filled, COARSE: show_likeness, SIMPLIFIED: SimplifiedPart}
+_MODES = {FILLED: show_filled, COARSE: show_proxy, SIMPLIFIED: SimplifiedPart}
 #: FreeCAD's mode that was a document's before there was `FILLED`.
 _PLAIN = "Shaded"
 #: What of a view is in the look of our modes; FreeCAD 1.0 has another name for the colour.
@@ -53,7 +53,7 @@ class LatticeInfillView:
     """View provider of a lattice infill: its icon, the commands for it, display modes.
 
     Beside FreeCAD's own modes for meshes there are Skin and Lattice, which is a new infill's,
-    Coarse, a likeness of fewer triangles, and Simplified, the struts without any. Each is made
+    Coarse, a proxy of fewer triangles, and Simplified, the struts without any. Each is made
     when it is shown first and dropped with a new mesh. A mesh of more triangles than the
     preference allows is shown coarsely, unless it is shown simplified already; whoever then
     chooses another mode sees all of it.
@@ -248,7 +248,7 @@ class LatticeInfillView:
             App.Console.PrintError(f"VOLFREP, {self.object.Label}: not shown {mode}. {error}\n")
 
     def _come(self, mode: str, drawn: FilledPart) -> Iterator[None]:
-        """All of what is drawn as a likeness, and then its colours."""
+        """All of what is drawn as a proxy, and then its colours."""
         yield from drawn.add_pieces()
         self._whole.add(mode)
         with suppress(ReferenceError):

@@ -9,7 +9,7 @@ its writer and is added up by `reports/estimate`.
 #: Triangles that the cut leaves on each area of a facet's edge squared of the wall.
 WALL_TRIANGLES = 1.1
 #: The skin's wall is looked for where the surface bends (`skin_bends`): seconds, bytes and facets
-#: for each bend; and finer where the room between two skins is narrow (`narrow_room`). Of 17 parts
+#: for each bend; and finer where the room between two skins is narrow (`narrow_gaps`). Of 17 parts
 #: with a skin of a hundredth of their length, of CVC and of Octet, time and memory are within a
 #: factor of two, also of a sheet of 200 x 300 x 3 with a skin of 0.15.
 SECONDS_PER_BEND = 1.1e-3

@@ -100,7 +100,7 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     if spec.cell_map is None:
         grid = np.ceil(np.ptp(solid.bounds, axis=0) / spec.cell_size - 1e-6).prod()
         cells = min(cells, float(grid) * spec.cell_size**3 / one)
-    narrow = narrow_room(solid, spec)
+    narrow = narrow_gaps(solid, spec)
     seconds = costs.SECONDS + costs.SECONDS_PER_BEND * bends + costs.SECONDS_PER_NARROW * narrow
     seconds += costs.SECONDS_PER_TRIANGLE * triangles
     if spec.output != "domain":
@@ -166,19 +166,19 @@ def _bending(solid: TriangleMesh) -> float:
     return total
 
 
-def narrow_room(solid: TriangleMesh, spec: LatticeSpec) -> float:
+def narrow_gaps(solid: TriangleMesh, spec: LatticeSpec) -> float:
     """How much room narrower than the skin there is between two skins, in squares of its width.
 
     The area of the solid's surface over the square of the room's width below it, beyond what a
     room as wide as the skin has: as many cubes as wide as the room would lie along it. Told by
     `NARROW_LINES` straight into the solid. 0 without a skin.
     """
-    return _narrow_room(solid, spec.shell) if spec.shell > 0.0 else 0.0
+    return _narrow_gaps(solid, spec.shell) if spec.shell > 0.0 else 0.0
 
 
 @lru_cache(maxsize=8)
-def _narrow_room(solid: TriangleMesh, skin: float) -> float:
-    """As `narrow_room`, of a skin of one thickness, mm."""
+def _narrow_gaps(solid: TriangleMesh, skin: float) -> float:
+    """As `narrow_gaps`, of a skin of one thickness, mm."""
     from ..spatial.rays import segment_crossings  # as above
 
     a, b, c = solid.corners()
@@ -195,8 +195,8 @@ def _narrow_room(solid: TriangleMesh, skin: float) -> float:
     leaves = sense > 0
     thick = np.full(len(start), np.inf)
     np.minimum.at(thick, line[leaves], 3.0 * (1e-3 + (1.0 - 1e-3) * share[leaves]))
-    room = thick - 2.0
-    narrow = np.maximum(room[(room > 0.0) & (room < 1.0)], NARROWEST)
+    gap = thick - 2.0
+    narrow = np.maximum(gap[(gap > 0.0) & (gap < 1.0)], NARROWEST)
     return float(0.5 * twice.sum() / skin**2 * (narrow**-2.0 - 1.0).sum() / len(start))
 
 
@@ -240,7 +240,7 @@ def _forecast_graph(
 ) -> Forecast:
     triangles = costs.TRIANGLES_PER_STRUT * struts + len(solid.triangles)
     bends = skin_bends(solid, spec)
-    narrow = narrow_room(solid, spec)
+    narrow = narrow_gaps(solid, spec)
     seconds = costs.SECONDS + costs.SECONDS_PER_BEND * bends + costs.SECONDS_PER_NARROW * narrow
     seconds += costs.SECONDS_PER_NETWORK_TRIANGLE * triangles
     share = np.array([struts / points])

@@ -49,15 +49,15 @@ class Pieces:
             )
             better = np.full(len(ends), -1.0)
             some = np.flatnonzero(valid)
-            old = self._strays(ends[some])
+            old = self._deviations(ends[some])
             some, old = some[old > usual], old[old > usual]
-            better[some] = old - self._strays(corners[some]) - _WORTH
+            better[some] = old - self._deviations(corners[some]) - _WORTH
             return better
 
         edge = np.sort(np.concatenate([rows[:, [0, 1]], rows[:, [1, 2]], rows[:, [2, 0]]]), axis=1)
         edge = edge[np.unique(edge[:, 0] * len(place) + edge[:, 1], return_index=True)[1]]
         touched = np.zeros(len(place), bool)
-        touched[edge[self._strays(edge, (0.5,)) > usual]] = True
+        touched[edge[self._deviations(edge, (0.5,)) > usual]] = True
         near = np.flatnonzero(touched[rows].any(axis=1))
         some = rows[near]
         for _ in range(_FLIPS):
@@ -104,7 +104,7 @@ class Pieces:
         result: Floats = found
         return result
 
-    def _strays(self, edge: Ints, shares: tuple[float, ...] = (0.25, 0.5, 0.75)) -> Floats:
+    def _deviations(self, edge: Ints, shares: tuple[float, ...] = (0.25, 0.5, 0.75)) -> Floats:
         """(k,) mean square distance of edges from the surface, in units of the ball."""
         one, two = self._place[edge[:, 0]], self._place[edge[:, 1]]
         of = self._node[edge[:, 0]]

@@ -130,12 +130,12 @@ def deviation_warnings(
     That is known of the octants as they are meshed, before a grading moves them.
     """
     allowed = DEVIATION_WARNED * octant_spec.deviation
-    strays = np.array([octant.stray for octant in octants.values()])
-    count, farthest = int((strays > allowed).sum()), float(strays.max(initial=0.0))
+    deviations = np.array([octant.deviation for octant in octants.values()])
+    count, farthest = int((deviations > allowed).sum()), float(deviations.max(initial=0.0))
     if not count:
         return ()
     return (
         f"Where struts meet, facets stray by up to {farthest:.2g} mm from the exact joints, in "
-        f"{count:,} of {len(strays):,} kinds of joint, {farthest / octant_spec.deviation:.2g} "
+        f"{count:,} of {len(deviations):,} kinds of joint, {farthest / octant_spec.deviation:.2g} "
         f"times what is asked for: a smaller deviation brings them nearer.",
     )

@@ -78,7 +78,7 @@ class ShownMesh(NamedTuple):
     Attributes:
         facets: (t, 6) uint32, triangles and their neighbours: see `mesh.display_parts`.
         parts: what is drawn.
-        is_coarse: whether that is a likeness, because the mesh has too many triangles.
+        is_coarse: whether that is a proxy, because the mesh has too many triangles.
     """
 
     facets: NDArray[np.uint32]
@@ -150,9 +150,11 @@ def forecast_and_fill(
     return forecast, filled
 
 
-def _shown(mesh: TriangleMesh, kinds: NDArray[np.uint8], most: int, likeness: int) -> ShownMesh:
+def _shown(
+    mesh: TriangleMesh, kinds: NDArray[np.uint8], most: int, proxy_triangles: int
+) -> ShownMesh:
     is_coarse = len(mesh.triangles) > most
-    parts = drawn_parts(mesh, kinds, likeness if is_coarse else most, (OUTSIDE,))
+    parts = drawn_parts(mesh, kinds, proxy_triangles if is_coarse else most, (OUTSIDE,))
     return ShownMesh(facets_with_neighbours(mesh), parts, is_coarse)
 
 

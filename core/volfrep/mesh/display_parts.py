@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a window draws of a mesh, made beside it: a likeness at once, all of it piece by piece.
+"""What a window draws of a mesh, made beside it: a proxy at once, all of it piece by piece.
 
 FreeCAD reads its own binary format, which holds neighbours, faster than PLY. Coin gets arrays, some
 thousand triangles at a time, between which the window answers.
@@ -22,7 +22,7 @@ from .vertex_cluster import cluster_vertices
 #: Triangles of a piece: a graphics driver without a card takes them in a few hundredths of a
 #: second.
 PIECE = 20_000
-#: Meshes of more triangles are drawn as a likeness of so many first.
+#: Meshes of more triangles are drawn as a proxy of so many first.
 AT_ONCE = 120_000
 #: No triangle on the other side.
 NOTHING = 0xFFFFFFFF
@@ -67,7 +67,7 @@ class DrawnPart:
 
     Attributes:
         kind: the number of the kind.
-        first: a likeness that is drawn at once; None where the pieces are few enough.
+        first: a proxy that is drawn at once; None where the pieces are few enough.
         pieces: all that is to be seen in the end.
         edges: (e, 2, 3) float32 ends of the sharp edges, mm.
     """
@@ -86,17 +86,17 @@ def drawn_parts(
     Args:
         mesh: any.
         kinds: (t,) of its triangles.
-        most: of each kind so many triangles at most; where there are more, a likeness of them.
+        most: of each kind so many triangles at most; where there are more, a proxy of them.
         with_edges: the kinds whose sharp edges are drawn.
     """
     found = []
-    likeness = len(mesh.triangles) > AT_ONCE
+    has_proxy = len(mesh.triangles) > AT_ONCE
     for kind in np.unique(kinds).tolist():
         rows = kinds == kind
         whole = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
         part = cluster_vertices(whole, most)
         first = None
-        if likeness:
+        if has_proxy:
             share = rows.mean() * AT_ONCE
             first = in_pieces(shade(cluster_vertices(part, max(int(share), AT_ONCE // 8))))
         edges = np.zeros((0, 2, 3), np.float32)

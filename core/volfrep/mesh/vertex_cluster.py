@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Decimation by vertex clustering: a coarse likeness of a mesh, for looking at.
+"""Decimation by vertex clustering: a coarse proxy of a mesh, for looking at.
 
 For looking only. Reducing a finished mesh by quadrics was tried for files and dropped: a larger
 deviation from the start makes fewer triangles, in less time.

@@ -21,7 +21,7 @@ from .octant import (
     sample_octants,
 )
 from .octant_spec import OctantSpec
-from .refinement import all_stray
+from .refinement import surface_deviations
 from .sdf import Anchors, Field, Primitives
 
 #: Samples of octants that are found together.
@@ -128,9 +128,9 @@ class Batch:
         owner = refined.piece[refined.triangles[:, 0]]
         by_piece = np.argsort(owner, kind="stable")
         cuts = np.searchsorted(owner[by_piece], np.arange(len(self.raw) + 1))
-        stray = np.zeros(len(self.raw))
+        deviations = np.zeros(len(self.raw))
         if refined.field.fillet == 0.0:  # otherwise values are no distances
-            np.maximum.at(stray, owner, all_stray(refined, CLOSELY * self.deviation))
+            np.maximum.at(deviations, owner, surface_deviations(refined, CLOSELY * self.deviation))
         result = {}
         for k, key in enumerate(self.keys):
             if not which[k]:
@@ -141,7 +141,7 @@ class Batch:
             octant = ranked_octant(
                 vertices, triangles, refined.place[part], order[part], self.solid_corners[k]
             )
-            result[key] = replace(octant, stray=float(stray[k]))
+            result[key] = replace(octant, deviation=float(deviations[k]))
         return result
 
 

@@ -234,7 +234,7 @@ class Octant:
         rank: (n,) int32, number of the vertex among those of its entity; the same number in
             every octant that shares the entity.
         solid_corners: (2, 2, 2) bool, whether the octant's corners are inside the lattice.
-        stray: how far its facets stray from the exact struts at most, mm; 0 where nobody looked.
+        deviation: of its facets from the exact struts at most, mm; 0 where nobody looked.
     """
 
     vertices: Floats
@@ -242,7 +242,7 @@ class Octant:
     entity: NDArray[np.int8]
     rank: NDArray[np.int32]
     solid_corners: NDArray[np.bool_]
-    stray: float = 0.0
+    deviation: float = 0.0
 
     @property
     def places(self) -> Ints:

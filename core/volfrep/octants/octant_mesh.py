@@ -33,11 +33,11 @@ from .octant import (
 from .octant_spec import OctantSpec
 from .refinement import (
     BORDER_ROUNDS,
-    all_stray,
     coarser,
     finer_border,
     flipped_nearer,
-    split_where_it_strays,
+    split_where_it_deviates,
+    surface_deviations,
 )
 from .sdf import Primitives
 from .surface_fit import fit_border, fit_facets
@@ -223,10 +223,10 @@ def _refined(meshed: Meshed, deviation: float, monitor: Monitor) -> Meshed:
         monitor.tick()
         surface = meshed.surface
         owner = surface.piece[surface.triangles[:, 0]]
-        stray = all_stray(surface, LOOKED_AT * farthest)
+        deviations = surface_deviations(surface, LOOKED_AT * farthest)
         reached.append(np.where(np.isin(np.arange(pieces), surface.piece), 0.0, np.inf))
-        np.maximum.at(reached[-1], owner, stray)
-        beyond.append(np.bincount(owner[stray > farthest], minlength=pieces))
+        np.maximum.at(reached[-1], owner, deviations)
+        beyond.append(np.bincount(owner[deviations > farthest], minlength=pieces))
         rounds.append(meshed)
         if len(rounds) > REFINEMENTS:
             break
@@ -239,7 +239,7 @@ def _refined(meshed: Meshed, deviation: float, monitor: Monitor) -> Meshed:
         if len(rounds) > STALLED:
             far &= reached[-1] < NEARER * reached[-1 - STALLED]
         meshed = meshed.where(far[surface.piece])
-        finer, parents = split_where_it_strays(meshed.surface, stray[far[owner]], farthest)
+        finer, parents = split_where_it_deviates(meshed.surface, deviations[far[owner]], farthest)
         if finer is meshed.surface:
             break
         finer = fit_facets(flipped_nearer(finer, farthest), farthest, REFITS[1])

@@ -62,7 +62,7 @@ BORDER_STEPS = 5
 TIED = 1e-6
 
 
-def strays(surface: Surface, corners: Ints, looks: Floats = LOOK_AT) -> Floats:
+def facet_deviations(surface: Surface, corners: Ints, looks: Floats = LOOK_AT) -> Floats:
     """(k,) how far facets of (k, 3) vertices stray from the exact surface, mm.
 
     Looked at in the (q, 3) barycentric coordinates `looks`.
@@ -71,31 +71,31 @@ def strays(surface: Surface, corners: Ints, looks: Floats = LOOK_AT) -> Floats:
         return np.zeros(0)
     size = POINTS_AT_ONCE // len(looks)
     parts = (corners[begin : begin + size] for begin in range(0, len(corners), size))
-    return np.concatenate([_strays(surface, part, looks) for part in parts])
+    return np.concatenate([_facet_deviations(surface, part, looks) for part in parts])
 
 
-def _strays(surface: Surface, corners: Ints, looks: Floats) -> Floats:
+def _facet_deviations(surface: Surface, corners: Ints, looks: Floats) -> Floats:
     points = np.einsum("qi,mik->mqk", looks, surface.vertices[corners])
     values = surface.field.rows(corners[:, 0]).values_of_groups(points)
     result: Floats = np.abs(values).max(axis=1)
     return result
 
 
-def all_stray(surface: Surface, closely: float = np.inf) -> Floats:
+def surface_deviations(surface: Surface, closely: float = np.inf) -> Floats:
     """(m,) how far the facets stray from the exact surface, mm.
 
     Looked at closely between several struts, and where that is more than `closely`, mm.
     """
-    result = strays(surface, surface.triangles)
+    result = facet_deviations(surface, surface.triangles)
     if surface.field.fillet > 0.0:  # without creases
         return result
     nearest = surface.field.nearest(surface.vertices)[1][surface.triangles]
     look = np.flatnonzero((nearest != nearest[:, :1]).any(axis=1) | (result > closely))
-    result[look] = strays(surface, surface.triangles[look], LOOK_CLOSELY)
+    result[look] = facet_deviations(surface, surface.triangles[look], LOOK_CLOSELY)
     return result
 
 
-def edges_stray(surface: Surface, ends: Ints) -> Floats:
+def edge_deviations(surface: Surface, ends: Ints) -> Floats:
     """(k,) how far edges of (k, 2) vertices stray from the exact surface, mm."""
     a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
     nearer = [surface.field.rows(end) for end in ends.T]
@@ -138,7 +138,7 @@ def coarser(surface: Surface, farthest: float) -> tuple[Surface, Ints]:
         # How far facets stray costs most to find: only of those whose shape is good.
         cost[owner[~stays_good(vertices[corners], vertices[after])]] = np.inf
         good = cost[owner] < np.inf
-        np.maximum.at(cost, owner[good], strays(surface, after[good]))
+        np.maximum.at(cost, owner[good], facet_deviations(surface, after[good]))
         cost[cost > farthest] = np.inf
         return cost, vertices[kept]
 
@@ -156,20 +156,20 @@ def coarser(surface: Surface, farthest: float) -> tuple[Surface, Ints]:
 def flipped_nearer(surface: Surface, farthest: float) -> Surface:
     """Edges flipped where that brings their facets nearer, or makes those near enough more even."""
     vertices, triangles, count = surface.vertices, surface.triangles, len(surface.vertices)
-    stray = strays(surface, triangles)
+    deviations = facet_deviations(surface, triangles)
 
     def gain(ends: Ints, corners: Ints) -> Floats:
         (a, b), (c, d) = ends.T, corners.T
         shape = remesh.worse_quality(vertices[c], vertices[d], vertices[b], vertices[a])
         better = shape - BETTER
         better -= remesh.worse_quality(vertices[a], vertices[b], vertices[c], vertices[d])
-        before = stray[_facets_beside(triangles, ends, count)].max(axis=1)
+        before = deviations[_facets_beside(triangles, ends, count)].max(axis=1)
         look = np.flatnonzero(((better > 0.0) | (before > farthest)) & (shape > FLIPPED_SHAPE))
         (a, b), (c, d) = ends[look].T, corners[look].T
         after = np.full(len(ends), np.inf)
         after[look] = np.maximum(
-            strays(surface, np.stack([c, d, b], axis=1)),
-            strays(surface, np.stack([d, c, a], axis=1)),
+            facet_deviations(surface, np.stack([c, d, b], axis=1)),
+            facet_deviations(surface, np.stack([d, c, a], axis=1)),
         )
         nearer = (before - after) / farthest - GAIN
         return np.where(np.maximum(before, after) > farthest, nearer, better)
@@ -180,7 +180,7 @@ def flipped_nearer(surface: Surface, farthest: float) -> Surface:
         if not flips:
             break
         new = (triangles != before).any(axis=1)
-        stray[new] = strays(surface, triangles[new])
+        deviations[new] = facet_deviations(surface, triangles[new])
     return replace(surface, triangles=triangles)
 
 
@@ -193,14 +193,16 @@ def _facets_beside(triangles: Ints, ends: Ints, count: int) -> Ints:
     return result
 
 
-def split_where_it_strays(surface: Surface, stray: Floats, farthest: float) -> tuple[Surface, Ints]:
+def split_where_it_deviates(
+    surface: Surface, deviations: Floats, farthest: float
+) -> tuple[Surface, Ints]:
     """The surface with its inner edges divided where these, or facets beside them, stray.
 
     The border stays, since the octant beyond has the same.
 
     Args:
         surface: fitted.
-        stray: (m,) how far its facets do, mm.
+        deviations: (m,) how far its facets do, mm.
         farthest: facets may stray so far from the exact surface, mm.
 
     Returns:
@@ -214,13 +216,13 @@ def split_where_it_strays(surface: Surface, stray: Floats, farthest: float) -> t
     if not len(inner):
         return surface, same
     ends = table.ends[inner]
-    bad = edges_stray(surface, ends) > farthest
+    bad = edge_deviations(surface, ends) > farthest
     # A facet that strays though its edges do not is divided at its longest inner one.
     a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
     length = np.linalg.norm(b - a, axis=1)
     touched = np.zeros(len(surface.triangles), bool)
     touched[table.triangles[inner[bad]]] = True
-    far = np.flatnonzero(~touched & (stray > farthest))
+    far = np.flatnonzero(~touched & (deviations > farthest))
     longest = np.full(len(touched), -1)
     by_length = np.argsort(length, kind="stable")
     for side in (0, 1):
@@ -323,7 +325,7 @@ def finer_border(surface: Surface, farthest: float) -> tuple[Surface, Ints]:
     shared = (surface.place[ends[:, 0]] == surface.place[ends[:, 1]]) & surface.pinned[ends[:, 0]]
     length = np.linalg.norm(surface.vertices[ends[:, 1]] - surface.vertices[ends[:, 0]], axis=1)
     bad = (shared.sum(axis=1) == 1) & (length > SHORTEST * surface.edge)
-    bad &= edges_stray(surface, ends) > farthest
+    bad &= edge_deviations(surface, ends) > farthest
     if not bad.any():
         return surface, parents
     ends, owner, shared = ends[bad], owner[bad], shared[bad]

@@ -14,10 +14,10 @@ from .octree import Crossings, Leaves, cross, find, name, named
 from .sampled_depth import COARSEST, DepthField
 
 #: Cubes are halved where a facet strays by more than this, in units of the thickness.
-STRAY = 0.02
+DEVIATION = 0.02
 #: But cubes smaller than `SMALL` (thicknesses) only where one strays by more than this: a part of
 #: the cavity ends where it gets narrower than twice as much.
-STRAY_SMALL = 0.035
+DEVIATION_SMALL = 0.035
 SMALL = 0.21
 #: Parts of the cavity narrower than this (thicknesses) need not be found.
 NARROW = 0.1
@@ -63,9 +63,9 @@ def find_offset_surface(field: DepthField) -> OffsetSurface:
     changed = np.ones(len(leaves.size), bool)
     for done in range(ROUNDS):
         monitor.tick(0.2 + 0.6 * done / ROUNDS)
-        near, known, stray = _looked_at(field, leaves, negative, changed, known)
+        near, known, deviates = _looked_at(field, leaves, negative, changed, known)
         halve = np.zeros(len(leaves.size), bool)
-        halve[near] = stray
+        halve[near] = deviates
         enough = done == ROUNDS - 1 or len(known.names) + 4 * halve.sum() > MOST_EDGES
         if enough or not halve.any():
             break
@@ -128,9 +128,9 @@ def _looked_at(
     # A halved leaf beside smaller ones may have none but known edges.
     fresh = changed[near][leaf]
     fresh[crossings.patch[new]] = True
-    stray = _strays(surface, fresh, depth) > np.where(small, STRAY_SMALL, STRAY)
+    deviates = _deviations(surface, fresh, depth) > np.where(small, DEVIATION_SMALL, DEVIATION)
     halve = np.bincount(leaf, minlength=len(part.size)) > 1
-    halve[leaf[stray]] = True
+    halve[leaf[deviates]] = True
     return near, known, halve & (part.size > FINEST)
 
 
@@ -183,16 +183,16 @@ def _contoured(
     return OffsetSurface(crossings, facets(crossings, vertices, anchor, normal))
 
 
-def _strays(surface: OffsetSurface, fresh: Bools, depth: Depth) -> Floats:
+def _deviations(surface: OffsetSurface, fresh: Bools, depth: Depth) -> Floats:
     """(p,) how far the facets round each patch's vertex stray, if a fresh one (p,) is at them."""
     vertices, triangles = surface.facets.mesh.vertices, surface.facets.mesh.triangles
     result = np.zeros(len(vertices))
-    result[fresh] = np.abs(depth.strays(vertices[fresh]))
-    suspect = surface.facets.off[surface.facets.edge] > FLAT * STRAY * depth.thickness
-    suspect |= (result[triangles] > FLAT * STRAY).any(axis=1)
+    result[fresh] = np.abs(depth.deviation(vertices[fresh]))
+    suspect = surface.facets.off[surface.facets.edge] > FLAT * DEVIATION * depth.thickness
+    suspect |= (result[triangles] > FLAT * DEVIATION).any(axis=1)
     near = triangles[suspect & fresh[triangles].any(axis=1)]
     for shares in LOOK_AT:
-        near = near[(result[near] <= STRAY_SMALL).all(axis=1)]
+        near = near[(result[near] <= DEVIATION_SMALL).all(axis=1)]
         points = np.einsum("ncx,c->nx", vertices[near], np.array(shares))
-        np.maximum.at(result, near, np.abs(depth.strays(points))[:, None])
+        np.maximum.at(result, near, np.abs(depth.deviation(points))[:, None])
     return result

@@ -17,7 +17,7 @@ from ..mesh.remesh import unit_normals
 from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.piercing import pairs_at_planes, piercing_among
-from ..spatial.resolve_crossings import Turns, resolve_fold_crossings
+from ..spatial.resolve_crossings import Folds, resolve_fold_crossings
 from ..util.linalg import normalize, symmetric_eigen
 from ..util.manifold import manifold_library
 from ..util.progress import Monitor
@@ -56,8 +56,8 @@ def without_crossings(mesh: TriangleMesh, thickness: float, monitor: Monitor) ->
         if not fewest:
             break
         monitor.count("times the wall was drawn apart", 1)
-        turns = Turns(np.ones(len(mesh.triangles), bool), known.pairs)
-        mesh = resolve_fold_crossings(mesh, monitor, turns=turns)[0]
+        folded = Folds(np.ones(len(mesh.triangles), bool), known.pairs)
+        mesh = resolve_fold_crossings(mesh, monitor, folded=folded)[0]
         known = find_new_crossings(mesh, monitor, known)
         if len(known.pairs):
             mesh = monitor.call(partial(_less, mesh, *_boxes(mesh, known.pairs, reach)))

@@ -112,7 +112,7 @@ class Depth:
             return level_planes(points, wanted - distance, normals + slopes)
         return closest - self.thickness * normals, normals
 
-    def strays(self, points: Floats) -> Floats:
+    def deviation(self, points: Floats) -> Floats:
         """(n,) relative errors of the wall's thickness at points of it: above 0 is too thick.
 
         Of one that follows a field in units of the least.
@@ -169,9 +169,9 @@ class OpenDepth(Depth):
         end = points - beyond[:, None] * outward
         return np.where(ends, end, anchor), np.where(ends, outward, normal)
 
-    def strays(self, points: Floats) -> Floats:
+    def deviation(self, points: Floats) -> Floats:
         """As `Depth.strays`; what lies outside the solid is cut off and has no error."""
-        return np.where(self._inside(points), super().strays(points), 0.0)
+        return np.where(self._inside(points), super().deviation(points), 0.0)
 
     def _beyond(self, points: Floats) -> tuple[Floats, Floats]:
         """How far points are beyond the cavity's end, below 0 before it; directions outward."""
@@ -260,7 +260,7 @@ class SheetDepth(Depth):
             return level_planes(points, value, normals)
         return points - value[:, None] * normals, normals
 
-    def strays(self, points: Floats) -> Floats:
+    def deviation(self, points: Floats) -> Floats:
         """As `Depth.strays`, in units of the thinnest skin."""
         result = np.asarray(-self.values(points)[0] / self.thickness)
         if self.solid is not None:

@@ -174,5 +174,5 @@ def _measured(mesh: TriangleMesh, depth: Depth) -> Cavity:
     pick = random.choice(len(area), MEASURED_POINTS, p=area / area.sum())
     weight = random.dirichlet((1.0, 1.0, 1.0), MEASURED_POINTS)
     points = weight[:, :1] * a[pick] + weight[:, 1:2] * b[pick] + weight[:, 2:] * c[pick]
-    error = np.abs(depth.strays(points))
+    error = np.abs(depth.deviation(points))
     return Cavity(mesh, float(error.max()), points[np.argmax(error)])

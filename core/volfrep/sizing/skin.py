@@ -98,7 +98,8 @@ class SkinModel:
         pads: (n,) mm, so far about a vertex that struts meet the skin is stiff; 0 elsewhere.
         joined: what hangs together where the part is solid.
         solid_share: of the shells' area, where the part is thinner than two skins.
-        room: (n,) mm, how thick the part is below each vertex, as far as that was looked at.
+        thickness_below: (n,) mm, how thick the part is below each vertex, as far as that
+            was looked at.
         between: stiffness of what is solid between shells, which `blocks` has, too.
     """
 
@@ -111,7 +112,7 @@ class SkinModel:
     pads: Floats
     joined: Joined
     solid_share: float
-    room: Floats
+    thickness_below: Floats
     between: Blocks
 
     def unit_blocks(self) -> UnitBlocks:
@@ -222,17 +223,19 @@ def skin_model(
         else np.full(len(outside.vertices), thickness)
     )
     far = max(float(wanted.max()), thickest or 0.0)
-    room = _room(outside, triangles, normal, doubled, _SOLID * far)
+    thickness_below = _thickness_below(outside, triangles, normal, doubled, _SOLID * far)
     # A body is filled where its sides meet, and no further than the skin is thick from there.
-    bulky = (wanted > edge) & (wanted > 0.5 * room)
+    bulky = (wanted > edge) & (wanted > 0.5 * thickness_below)
     if bulky.any():
         meets = cKDTree(outside.vertices[bulky]).query(outside.vertices)[0]
         bulky = (wanted > edge) & (meets <= wanted)
-        room = np.where(
-            bulky, np.minimum(room, _share_of_body(solid, outside, bulky, doubled)), room
+        thickness_below = np.where(
+            bulky,
+            np.minimum(thickness_below, _share_of_body(solid, outside, bulky, doubled)),
+            thickness_below,
         )
     # Each side has its half of what is solid.
-    local = np.minimum(wanted, 0.5 * room)
+    local = np.minimum(wanted, 0.5 * thickness_below)
     kept = triangles[used]
     walls = kept, normal[used], corner_angles(corners[used])
     middle = _inwards(outside.vertices, *walls, 0.5 * local)
@@ -249,11 +252,11 @@ def skin_model(
     thick = local[kept].mean(axis=1)
     shells = shells_of(middle, kept, thick, material, clear=clear, pads=pads)
     blocks, joined, between = shells.blocks(), NOT_JOINED, NOTHING_BETWEEN
-    solid_nodes = np.flatnonzero(room < _SOLID * wanted)
+    solid_nodes = np.flatnonzero(thickness_below < _SOLID * wanted)
     if len(solid_nodes) and len(kept):
         shares = np.repeat(shells.area / 3.0, 3)
         area = np.bincount(kept.ravel(), shares, len(middle)).astype(np.float64)
-        between, joined = _held_together(middle, kept, solid_nodes, room, area, material)
+        between, joined = _joined_shells(middle, kept, solid_nodes, thickness_below, area, material)
         blocks = Blocks(
             np.concatenate([blocks.rows, between.rows]),
             np.concatenate([blocks.columns, between.columns]),
@@ -268,10 +271,20 @@ def skin_model(
     if len(between.rows):
         last = len(blocks.rows) - len(between.rows)
         between = replace(between, stiffness=blocks.stiffness[last:])
-    is_solid = (room < _SOLID * wanted)[kept].all(axis=1)
+    is_solid = (thickness_below < _SOLID * wanted)[kept].all(axis=1)
     solid_share = float(shells.area[is_solid].sum() / max(float(shells.area.sum()), 1e-300))
     return SkinModel(
-        outside, middle, inside, shells, used, blocks, pads, joined, solid_share, room, between
+        outside,
+        middle,
+        inside,
+        shells,
+        used,
+        blocks,
+        pads,
+        joined,
+        solid_share,
+        thickness_below,
+        between,
     )
 
 
@@ -313,7 +326,7 @@ def _arms(outside: Floats, middle: Floats) -> Floats:
     return result
 
 
-def _room(
+def _thickness_below(
     mesh: TriangleMesh, triangles: Ints, normal: Floats, weight: Floats, far: float
 ) -> Floats:
     """(n,) how thick the part is below each vertex, mm; `far` where it is thicker."""
@@ -412,11 +425,11 @@ def _clear(
     return np.asarray(corner + way)
 
 
-def _held_together(
+def _joined_shells(
     middle: Floats,
     triangles: Ints,
     nodes: Ints,
-    room: Floats,
+    thickness_below: Floats,
     area: Floats,
     material: Elastic,
 ) -> tuple[Blocks, Joined]:
@@ -433,7 +446,7 @@ def _held_together(
         np.add.at(mean, triangles[:, corner], way)
     mean /= np.maximum(np.linalg.norm(mean, axis=1), 1e-300)[:, None]
     surface = TriangleMesh(middle, triangles.astype(np.int32))
-    start, gap = middle[nodes], 0.5 * room[nodes]
+    start, gap = middle[nodes], 0.5 * thickness_below[nodes]
     foot, away, triangle = closest_points(surface, start - gap[:, None] * mean[nodes])
     beyond = triangles[triangle]
     faces = np.einsum("ij,ij->i", way[triangle], mean[nodes]) < 0.0

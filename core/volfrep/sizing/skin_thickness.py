@@ -84,7 +84,7 @@ class SkinThickness:
     @cached_property
     def most(self) -> Floats:
         """(t,) mm, half of what there is room for: each side has its half of what is solid."""
-        return np.asarray(0.5 * self.skin.room[self.skin.shells.triangles].mean(axis=1))
+        return np.asarray(0.5 * self.skin.thickness_below[self.skin.shells.triangles].mean(axis=1))
 
     def wanted(self, variables: Floats) -> Floats:
         """(p,) mm, the values at the control points."""

@@ -73,7 +73,7 @@ JUDGED, TURNED, APART = 1, 2, 4
 
 
 @dataclass(frozen=True, eq=False)
-class Turns:
+class Folds:
     """Where a surface turns back on itself.
 
     Attributes:
@@ -84,9 +84,9 @@ class Turns:
     among: Bools
     pairs: Ints
 
-    def followed_by(self, more: int) -> Turns:
+    def followed_by(self, more: int) -> Folds:
         """The same, of a mesh to which so many triangles were added."""
-        return Turns(np.pad(self.among, (0, more)), self.pairs)
+        return Folds(np.pad(self.among, (0, more)), self.pairs)
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,7 +138,7 @@ def look_at(
     Args:
         mesh: the part.
         rim: its vertices at which others follow: what touches these is not judged.
-        deformed: as of `turns_of`.
+        deformed: as of `folds_of`.
         step: of the decimals of a text of the whole surface, mm.
         alone: tells which of its triangles meet nothing of another part.
         monitor: asked for a cancel.
@@ -161,13 +161,13 @@ def look_at(
     return Looks(marks, step)
 
 
-def turns_of(
+def folds_of(
     mesh: TriangleMesh,
     monitor: Monitor,
     deformed: bool = False,
     also: Bools | None = None,
     looks: Looks | None = None,
-) -> Turns:
+) -> Folds:
     """Where a mesh turns back, and crosses itself there; as of `resolve_fold_crossings`.
 
     Deformed struts of different joints may meet where nothing turns back: of a mesh that is no
@@ -185,11 +185,11 @@ def turns_of(
     if also is not None:
         among |= also
     apart = None if looks is None else looks.apart
-    return Turns(among, _crossing(mesh, among, monitor, apart=apart))
+    return Folds(among, _crossing(mesh, among, monitor, apart=apart))
 
 
 def resolve_fold_crossings(
-    mesh: TriangleMesh, monitor: Monitor, deformed: bool = False, turns: Turns | None = None
+    mesh: TriangleMesh, monitor: Monitor, deformed: bool = False, folded: Folds | None = None
 ) -> tuple[TriangleMesh, Floats | None]:
     """The mesh with no triangles that cross where its surface turns back, as far as that goes.
 
@@ -200,27 +200,27 @@ def resolve_fold_crossings(
         mesh: closed, or open where nothing turns back.
         monitor: asked for a cancel.
         deformed: whether vertices are elsewhere than they were meshed, so that facets may fold.
-        turns: of the mesh, where they are known.
+        folded: of the mesh, where they are known.
 
     Returns:
         The mesh, the same one where nothing crosses; and (3,) where triangles still do, mm.
     """
-    turns = turns or turns_of(mesh, monitor, deformed)
-    if not len(turns.pairs):
+    folded = folded or folds_of(mesh, monitor, deformed)
+    if not len(folded.pairs):
         return mesh, None
-    before, pairs = mesh, turns.pairs
+    before, pairs = mesh, folded.pairs
     if deformed:
         # What grazes needs steps of a file only; with as much as folds do it would cross deeper.
         grazes = _depths(mesh, pairs) < GRAZING * decimal_step(mesh.vertices)
-        mesh, left = _drawn_apart(mesh, pairs[grazes], turns.among, SHARES[:GRAZED], monitor)
+        mesh, left = _resolved(mesh, pairs[grazes], folded.among, SHARES[:GRAZED], monitor)
         pairs = np.concatenate([pairs[~grazes], left])
-        mesh, pairs = _drawn_apart(mesh, pairs, turns.among, FOLDED_SHARES, monitor)
+        mesh, pairs = _resolved(mesh, pairs, folded.among, FOLDED_SHARES, monitor)
     if not deformed or len(pairs) <= MOST_PLACES:
-        mesh, pairs = _drawn_apart(mesh, pairs, turns.among, SHARES, monitor)
+        mesh, pairs = _resolved(mesh, pairs, folded.among, SHARES, monitor)
     if mesh is not before:  # what moved may have met what lies anywhere
         moved = moved_vertices(before, mesh)
         went = touching(moved, mesh.triangles)
-        stay = turns.pairs[~went[turns.pairs].any(axis=1)]
+        stay = folded.pairs[~went[folded.pairs].any(axis=1)]
         now = _crossing(mesh, about(mesh, went), monitor, moved)
         pairs = np.concatenate([stay, now])
     if not len(pairs):
@@ -228,7 +228,7 @@ def resolve_fold_crossings(
     return mesh, mesh.vertices[mesh.triangles[pairs[0, 0]]].mean(axis=0)
 
 
-def _drawn_apart(
+def _resolved(
     mesh: TriangleMesh, pairs: Ints, among: Bools, shares: tuple[float, ...], monitor: Monitor
 ) -> tuple[TriangleMesh, Ints]:
     """The mesh after rounds of moves about pairs of triangles that cross; the pairs that are left.

@@ -350,7 +350,7 @@ def _lowest(
         if len(lattice.struts):
             clearance = _clearance(lattice, inside + site.radius * holes.axis)
         else:
-            clearance = _room(site, void, inside)
+            clearance = _void_clearance(site, void, inside)
         while len(chosen.start) < wanted.count:
             taken = np.concatenate([others.start, chosen.start])
             gap = np.linalg.norm(holes.start[:, None] - taken[None], axis=2)
@@ -396,7 +396,7 @@ def _clearance(lattice: Wireframe, points: Floats) -> Floats:
     return result
 
 
-def _room(site: _Site, void: TriangleMesh, points: Floats) -> Floats:
+def _void_clearance(site: _Site, void: TriangleMesh, points: Floats) -> Floats:
     """(n,) distance from points to what of a void's surface is not the inner wall, mm."""
     away = closest_points(site.domain, void.vertices)[1] > ON_WALL * site.thickness
     rows = void.triangles[touching(away, void.triangles)]

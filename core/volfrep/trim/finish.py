@@ -20,7 +20,7 @@ from ..mesh.precision import merging_vertices
 from ..mesh.quality import Quality, quality_after_moves, refuse_no_solid
 from ..mesh.topology import moved_vertices, touching
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..spatial.resolve_crossings import Turns, resolve_fold_crossings, turns_of
+from ..spatial.resolve_crossings import Folds, folds_of, resolve_fold_crossings
 from ..spatial.self_intersection import about, crossing_triangles
 from ..spatial.winding import Lines
 from ..util.errors import VolfrepError
@@ -110,15 +110,15 @@ def finish(
         quality, least = again, 0.5 * least  # the shells may have lost as much
     straight, place, drawn = surface.mesh, None, False
     if moved or cut:
-        turns = turns_of(surface.mesh, monitor, moved, looks=surface.looks)
-        if len(turns.pairs) and surface.octants is not None:  # which may have to go along
+        folded = folds_of(surface.mesh, monitor, moved, looks=surface.looks)
+        if len(folded.pairs) and surface.octants is not None:  # which may have to go along
             beside = len(surface.mesh.triangles)
-            surface = _with_octants_about(surface, turns.pairs, monitor)
-            turns = turns.followed_by(len(surface.mesh.triangles) - beside)
+            surface = _with_octants_about(surface, folded.pairs, monitor)
+            folded = folded.followed_by(len(surface.mesh.triangles) - beside)
         before = surface.mesh
-        straight, place = resolve_fold_crossings(before, monitor, moved, turns)
+        straight, place = resolve_fold_crossings(before, monitor, moved, folded)
         if place is not None:
-            surface, straight, place = thinned(surface, turns, straight, place, monitor, moved)
+            surface, straight, place = thinned(surface, folded, straight, place, monitor, moved)
         drawn = straight is not before
     if drawn:
         changed = surface.on(straight)
@@ -158,7 +158,7 @@ def _quality_after(
 
 def thinned(
     surface: TrimmedSurface,
-    turns: Turns,
+    folded: Folds,
     straight: TriangleMesh,
     place: Floats,
     monitor: Monitor,
@@ -168,7 +168,7 @@ def thinned(
 
     Args:
         surface: as it was before anything was drawn apart.
-        turns: where it turns back.
+        folded: where it turns back.
         straight: its mesh as far as it could be drawn apart.
         place: (3,) where that still crosses, mm.
         monitor: for cancel.
@@ -177,7 +177,7 @@ def thinned(
     Returns:
         The surface; its mesh, drawn apart; and where that still crosses.
     """
-    precision, rows = edge_within(surface.bounds), np.unique(turns.pairs)
+    precision, rows = edge_within(surface.bounds), np.unique(folded.pairs)
     for factor in THINNER:
         mesh, new = without_slivers_at(surface.mesh, rows, factor * precision)
         changed = surface.on(mesh)
@@ -188,8 +188,8 @@ def thinned(
             changed = changed.with_octants(near, monitor)
         whole = changed.mesh
         new = np.pad(new, (0, len(whole.triangles) - len(new)))
-        turns_now = turns_of(whole, monitor, moved, new)
-        apart, left = resolve_fold_crossings(whole, monitor, moved, turns_now)
+        folded_now = folds_of(whole, monitor, moved, new)
+        apart, left = resolve_fold_crossings(whole, monitor, moved, folded_now)
         if left is None:
             return changed, apart, None
     return surface, straight, place

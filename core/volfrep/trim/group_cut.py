@@ -47,7 +47,7 @@ class Group:
     Attributes:
         placed: the octants.
         own: (nx, ny, nz) bool, those whose surface the group gives out.
-        beside: others that its part of the wall touches.
+        adjacent: others that its part of the wall touches.
         follow: where the lattice goes on.
         boundary: closed mesh, near the octants that of the domain, mm.
         own_boundary: (m,) bool, triangles of it whose remains the group gives out.
@@ -59,7 +59,7 @@ class Group:
 
     placed: Placed
     own: Bools
-    beside: Bools
+    adjacent: Bools
     follow: Bools
     boundary: TriangleMesh
     own_boundary: Bools
@@ -108,7 +108,7 @@ def cut_group(group: Group, monitor: Monitor | None = None) -> Piece:
     """
     asked, monitor = monitor or Monitor(), Monitor()
     surfaces, caps = _surfaces(group, monitor)
-    both = group.own | group.beside
+    both = group.own | group.adjacent
 
     def capped() -> TriangleMesh:
         return group.placed.mesh(np.concatenate([*surfaces, caps]), both, monitor)[0]
@@ -128,7 +128,7 @@ def _looked_at(piece: Piece, group: Group, monitor: Monitor) -> Piece:
     mesh, placed, step = piece.mesh, group.placed, group.precision / STEPS
     layout, far = placed.layout, CLEAR_STEPS * step
     half = 0.5 * layout.grid.cell_size
-    others = np.pad(group.beside | group.follow, 1, constant_values=True)
+    others = np.pad(group.adjacent | group.follow, 1, constant_values=True)
     elsewhere = group.boundary.vertices[group.boundary.triangles[~group.own_boundary]]
 
     def alone(rows: Ints) -> Bools:
@@ -185,7 +185,7 @@ def _cut_along_seam(
     Raises:
         NotCertain: they touch.
     """
-    lattice = group.placed.mesh(np.concatenate(surfaces), group.own | group.beside, monitor)[0]
+    lattice = group.placed.mesh(np.concatenate(surfaces), group.own | group.adjacent, monitor)[0]
     own = np.arange(len(lattice.triangles)) < len(surfaces[0])
     monitor.count(
         "triangles into the Boolean", len(lattice.triangles) + len(group.boundary.triangles)
@@ -289,7 +289,7 @@ def _surfaces(group: Group, monitor: Monitor) -> tuple[list[NDArray[np.int32]], 
     Caps towards octants that follow are taken off again. Those towards nothing lie beyond the
     wall; what a wall that grazes them leaves belongs to the surface.
     """
-    layout, both = group.placed.layout, group.own | group.beside
+    layout, both = group.placed.layout, group.own | group.adjacent
     caps: list[NDArray[np.int32]] = []
     ends: tuple[list[NDArray[np.int32]], list[NDArray[np.int32]]] = ([], [])
     for axis in range(3):
@@ -297,11 +297,11 @@ def _surfaces(group: Group, monitor: Monitor) -> tuple[list[NDArray[np.int32]], 
             every = neighbour_missing(layout.grid, both, axis, high)
             last = neighbour_missing(layout.grid, both | group.follow, axis, high)
             caps.append(facets(layout, monitor, every & ~last, (axis, high)))
-            for part, where in zip(ends, (group.own, group.beside), strict=True):
+            for part, where in zip(ends, (group.own, group.adjacent), strict=True):
                 part.append(facets(layout, monitor, every & last & where, (axis, high)))
     surfaces = [
         np.concatenate([group.placed.facets(where, monitor), *part])
-        for part, where in zip(ends, (group.own, group.beside), strict=True)
+        for part, where in zip(ends, (group.own, group.adjacent), strict=True)
     ]
     return surfaces, np.concatenate(caps)
 

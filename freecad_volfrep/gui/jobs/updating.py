@@ -57,7 +57,7 @@ class Update:
     ) -> None:
         self._obj, self._doc, self._job = obj, obj.Document, job
         self.is_in_panel, self.ended = is_in_panel, ended
-        self._likeness: ProxyMesh | None = None
+        self._proxy: ProxyMesh | None = None
         self._mesh: Mesh.Mesh = None
         self._pending = list(self._doc.UndoNames) if self._doc.HasPendingTransaction else None
         begin(
@@ -75,8 +75,8 @@ class Update:
             self._job.go(State.IDLE)
 
     def _drop(self) -> None:
-        if self._likeness is not None:
-            self._likeness.remove()
+        if self._proxy is not None:
+            self._proxy.remove()
         self.ended(None)
 
     def is_as_wanted(self) -> bool:
@@ -99,12 +99,12 @@ class Update:
         return bool(names) and self._pending is not None and names == self._pending[: len(names)]
 
     def _take_over(self, come: tuple[Forecast, FilledMesh | None]) -> Iterator[None]:
-        """Make FreeCAD's mesh; a large one when the user does nothing, after its likeness."""
+        """Make FreeCAD's mesh; a large one when the user does nothing, after its proxy."""
         filled = come[1]
         if filled is None:
             return
         if len(filled.mesh.triangles) > LARGE:
-            self._likeness = ProxyMesh(self._obj, filled)
+            self._proxy = ProxyMesh(self._obj, filled)
             stillness = Stillness(QtWidgets.QApplication.instance())
             try:
                 yield
@@ -118,8 +118,8 @@ class Update:
     def _arrive(
         self, come: tuple[Forecast, FilledMesh | None] | None, error: BaseException | None
     ) -> None:
-        if self._likeness is not None:
-            self._likeness.remove()
+        if self._proxy is not None:
+            self._proxy.remove()
         step = translate("VolfrepCommands", "Mesh of {label}").format(label=self._obj.Label)
         if self._belongs_to_the_last_step():
             step += FOLLOWS

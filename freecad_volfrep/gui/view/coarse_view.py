@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Large meshes on the screen: a coarse likeness in the place of millions of triangles."""
+"""Large meshes on the screen: a coarse proxy in the place of millions of triangles."""
 
 from __future__ import annotations
 
@@ -11,6 +11,6 @@ from .filled_view import FilledPart, show_parts
 COARSE = "Coarse"
 
 
-def show_likeness(obj: Any, node: Any) -> FilledPart:
-    """Fill the node with a likeness of an infill's mesh, drawn as the mesh itself would be."""
+def show_proxy(obj: Any, node: Any) -> FilledPart:
+    """Fill the node with a proxy of an infill's mesh, drawn as the mesh itself would be."""
     return show_parts(obj, node, is_coarse=True)

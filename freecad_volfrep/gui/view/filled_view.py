@@ -37,15 +37,15 @@ class FilledPart:
     last. So the picture does not depend on the order in which anything is drawn. Only what faces
     the viewer is drawn, so that the near wall does not hide the lattice.
 
-    Of large parts a likeness is drawn first; `add_pieces` brings the rest, and takes it away.
+    Of large parts a proxy is drawn first; `add_pieces` brings the rest, and takes it away.
 
     Args:
         node: an empty node of the scene.
         parts: of a closed mesh, of the kinds of `volfrep.reports.facet_roles`.
-        is_likeness: leave it at that likeness.
+        is_proxy: leave it at that proxy.
     """
 
-    def __init__(self, node: Any, parts: Sequence[DrawnPart], is_likeness: bool = False) -> None:
+    def __init__(self, node: Any, parts: Sequence[DrawnPart], is_proxy: bool = False) -> None:
         from pivy import coin
 
         from volfrep.reports.facet_roles import LATTICE, OUTSIDE, WALL
@@ -71,7 +71,7 @@ class FilledPart:
             self._skin = drawing.SeeThrough(lines, shapes[OUTSIDE])
             node.addChild(self._skin.node)
         for kind, part in self._parts.items():
-            for arrays in part.first or (() if is_likeness else part.pieces):
+            for arrays in part.first or (() if is_proxy else part.pieces):
                 shapes[kind].addChild(drawing.piece(*arrays))
 
     def shapes(self, kinds: Sequence[int]) -> list[Any]:
@@ -108,14 +108,14 @@ class FilledPart:
         return all(part.first is None for part in self._parts.values())
 
     def add_pieces(self) -> Iterator[None]:
-        """Draw what a likeness was drawn of, a piece at each step."""
+        """Draw what a proxy was drawn of, a piece at each step."""
         for kind, part in self._parts.items():
             shape = self._shapes[kind]
-            likeness = shape.getNumChildren()
+            proxies = shape.getNumChildren()
             for arrays in part.pieces:
                 shape.addChild(drawing.piece(*arrays))
                 yield
-            for _ in range(likeness):
+            for _ in range(proxies):
                 shape.removeChild(0)
             yield
 
@@ -142,7 +142,7 @@ def _joined(arrays: list[NDArray[np.float32]]) -> NDArray[np.float32]:
 
 
 def show_filled(obj: Any, node: Any) -> FilledPart:
-    """Fill the node with an infill's mesh, or a likeness that the pieces come to."""
+    """Fill the node with an infill's mesh, or a proxy that the pieces come to."""
     return show_parts(obj, node, is_coarse=False)
 
 

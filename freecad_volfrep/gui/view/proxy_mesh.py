@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The likeness of a mesh in the 3D view, until the document has the mesh."""
+"""The proxy of a mesh in the 3D view, until the document has the mesh."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class ProxyMesh:
             return
         self._obj, self._was_visible = obj, obj.ViewObject.Visibility
         part = drawing.separate()
-        FilledPart(part, filled.shown.parts, is_likeness=True).set_look(obj.ViewObject, False)
+        FilledPart(part, filled.shown.parts, is_proxy=True).set_look(obj.ViewObject, False)
         turn = drawing.transform(parent_placement(obj).multiply(obj.Placement))
         self._root = drawing.separate(turn, drawing.unpickable(), part)
         self._root.setName(NODE)

@@ -92,13 +92,13 @@ def test_a_cancel_is_seen_while_octants_are_refined(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[str] = []
-    split = octant_mesh.split_where_it_strays
+    split = octant_mesh.split_where_it_deviates
 
     def refined(*given):
         asked.append("refined")
         return split(*given)
 
-    monkeypatch.setattr(octant_mesh, "split_where_it_strays", refined)
+    monkeypatch.setattr(octant_mesh, "split_where_it_deviates", refined)
     spec = LatticeSpec(str(complete(tmp_path, 4)), cell_size=10.0, strut_radius=0.8)
     with pytest.raises(Cancelled):
         blocks.block(spec, (1, 1, 1), progress=lambda *_: not asked)

@@ -11,7 +11,7 @@ from volfrep.design.forecast import (
     expected_triangles,
     forecast_block,
     forecast_fill,
-    narrow_room,
+    narrow_gaps,
     share_deeper,
     skin_bends,
 )
@@ -117,11 +117,11 @@ def test_a_lattice_under_a_thick_skin_has_the_triangles_that_are_told():
 def test_rooms_between_two_skins_are_narrow_in_a_plate_little_thicker_than_both():
     """Above and below, room of a fifth of the skin: 5 x 5 cubes on each square of the skin."""
     spec = LatticeSpec(shell=2.0)
-    narrow = narrow_room(samples.box((60.0, 50.0, 4.4)), spec)
+    narrow = narrow_gaps(samples.box((60.0, 50.0, 4.4)), spec)
     assert narrow == pytest.approx(2 * 60.0 * 50.0 / 2.0**2 * (5.0**2 - 1.0), rel=0.02)
-    assert narrow_room(samples.box((60.0, 50.0, 3.9)), spec) == 0.0, "solid"
-    assert narrow_room(samples.box((60.0, 50.0, 6.1)), spec) == 0.0, "wide"
-    assert narrow_room(samples.box((60.0, 50.0, 4.4)), LatticeSpec(shell=0.0)) == 0.0
+    assert narrow_gaps(samples.box((60.0, 50.0, 3.9)), spec) == 0.0, "solid"
+    assert narrow_gaps(samples.box((60.0, 50.0, 6.1)), spec) == 0.0, "wide"
+    assert narrow_gaps(samples.box((60.0, 50.0, 4.4)), LatticeSpec(shell=0.0)) == 0.0
     wide, tight = (forecast_fill(samples.box((60.0, 50.0, z)), spec) for z in (6.1, 4.4))
     assert tight.seconds > wide.seconds + 1.0
 

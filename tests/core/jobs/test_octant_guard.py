@@ -40,13 +40,13 @@ def test_facets_that_stray_farther_than_promised_are_told_by_how_much(cell, is_t
         points = (weights[..., None] * corners[None]).sum(axis=2).reshape(-1, 1, 3)
         exact = octant_primitives(spec.unit_cell(), key, SIZE, 1.0, wanted.reach)
         off = np.abs(sdf.union(sdf.distances(points, exact), 0.0)).max()
-        assert off <= 1.1 * octant.stray
+        assert off <= 1.1 * octant.deviation
         farthest = max(farthest, off)
     told = deviation_warnings(octants, wanted)
     assert bool(told) is is_told
     assert bool(farthest > DEVIATION_WARNED * wanted.deviation) is is_told
     if is_told:
-        most = max(octant.stray for octant in octants.values())
+        most = max(octant.deviation for octant in octants.values())
         assert f"by up to {most:.2g} mm" in told[0]
         assert most == pytest.approx(farthest, rel=0.25)
         assert told[0] in block(spec, (1, 1, 1)).report.warnings

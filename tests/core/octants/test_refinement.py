@@ -12,7 +12,12 @@ from volfrep.octants import octant_mesh, sdf
 from volfrep.octants.octant import ALL_ACTIVE, OctantKey, octant_primitives
 from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.octants.octant_spec import OctantSpec
-from volfrep.octants.refinement import all_stray, coarser, flipped_nearer, split_where_it_strays
+from volfrep.octants.refinement import (
+    coarser,
+    flipped_nearer,
+    split_where_it_deviates,
+    surface_deviations,
+)
 from volfrep.util.progress import Monitor
 
 KEY = OctantKey(0, ALL_ACTIVE)
@@ -24,7 +29,7 @@ def octant_of(name, facets=15):
     return mesh_octants(LIBRARY[name], OctantSpec(10.0, 1.0, 0.0, facets), [KEY], Monitor())[KEY]
 
 
-def strays(name, octant):
+def facet_deviations(name, octant):
     """(m, 120) distances of points of the facets from struts and joints, mm; (m,) areas."""
     primitives = octant_primitives(LIBRARY[name], KEY, 10.0, 1.0, 20.0)
     corners = octant.vertices[octant.triangles]
@@ -41,7 +46,7 @@ def test_facets_keep_the_deviation_in_creases_too(name, facets):
     """Octahedron's finest do not quite, as docs/limits.md says."""
     deviation = OctantSpec(10.0, 1.0, 0.0, facets).deviation
     most = 1.65 if (name, facets) == ("Octahedron", 25) else 1.5
-    assert strays(name, octant_of(name, facets))[0].max() < most * deviation
+    assert facet_deviations(name, octant_of(name, facets))[0].max() < most * deviation
 
 
 @pytest.mark.slow
@@ -52,7 +57,7 @@ def test_as_many_even_facets_stray_farther(monkeypatch, name):
     monkeypatch.setattr(octant_mesh, "REFINEMENTS", 0)
     even = octant_of(name, 18)
     assert len(even.triangles) >= len(fitted.triangles)
-    assert strays(name, fitted)[0].max() < 0.5 * strays(name, even)[0].max()
+    assert facet_deviations(name, fitted)[0].max() < 0.5 * facet_deviations(name, even)[0].max()
 
 
 def test_the_border_stays_as_the_octant_beyond_has_it(monkeypatch):
@@ -79,7 +84,7 @@ def test_a_border_that_strays_is_divided_as_the_octant_beyond_divides_it(monkeyp
 
 def test_what_strays_nowhere_stays():
     surface = octant_surface(LIBRARY["Box"])
-    same, parents = split_where_it_strays(surface, all_stray(surface), 1.0)
+    same, parents = split_where_it_deviates(surface, surface_deviations(surface), 1.0)
     assert same is surface
     assert (parents == np.arange(len(surface.vertices))[:, None]).all()
 
@@ -88,7 +93,7 @@ def test_merging_leaves_no_facet_farther_than_it_may():
     surface = octant_surface(LIBRARY["Octet"])
     fewer, stay = coarser(surface, 0.05)
     assert len(fewer.vertices) == len(stay) < len(surface.vertices)
-    assert all_stray(fewer).max() <= max(0.05, all_stray(surface).max())
+    assert surface_deviations(fewer).max() <= max(0.05, surface_deviations(surface).max())
     border = surface.pinned.any(axis=1)
     assert np.array_equal(fewer.vertices[border[stay]], surface.vertices[border])
 
@@ -96,5 +101,5 @@ def test_merging_leaves_no_facet_farther_than_it_may():
 def test_flips_bring_facets_nearer():
     surface = octant_surface(LIBRARY["Octet"])
     nearer = flipped_nearer(surface, 0.02)
-    assert all_stray(nearer).mean() < all_stray(surface).mean()
+    assert surface_deviations(nearer).mean() < surface_deviations(surface).mean()
     assert np.array_equal(nearer.vertices, surface.vertices)

@@ -35,8 +35,8 @@ def test_the_wall_of_a_ball_strays_no_further_than_it_may():
     assert found.is_watertight
     assert found.euler_number == 2
     points = found.triangles_center
-    assert np.abs(np.linalg.norm(points, axis=1) - 18.0).max() < refine.STRAY_SMALL * 2.0
-    assert np.abs(field.depth.strays(found.vertices)).max() < refine.STRAY_SMALL
+    assert np.abs(np.linalg.norm(points, axis=1) - 18.0).max() < refine.DEVIATION_SMALL * 2.0
+    assert np.abs(field.depth.deviation(found.vertices)).max() < refine.DEVIATION_SMALL
 
 
 @pytest.mark.slow
@@ -46,7 +46,7 @@ def test_the_wall_about_a_cone_strays_no_further_where_halved_cubes_lie_beside_s
     solid = as_mesh(manifold3d.Manifold.cube((14.0, 14.0, 14.0), True) - cone)
     field = field_of(solid, 0.8, cube=0.64)
     vertices = refine.find_offset_surface(field).facets.mesh.vertices
-    assert np.abs(field.depth.strays(vertices)).max() < refine.STRAY_SMALL
+    assert np.abs(field.depth.deviation(vertices)).max() < refine.DEVIATION_SMALL
 
 
 @pytest.mark.costly

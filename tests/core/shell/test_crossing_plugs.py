@@ -43,7 +43,7 @@ def test_a_housing_whose_walls_are_hardly_thicker_than_two_skins():
 def test_rounds_that_change_nothing_end_all_the_same(monkeypatch):
     mesh, monitor = overlapping_spheres(), Monitor()
     monkeypatch.setattr(
-        crossing_plugs, "resolve_fold_crossings", lambda mesh, monitor, turns: (mesh, None)
+        crossing_plugs, "resolve_fold_crossings", lambda mesh, monitor, folded: (mesh, None)
     )
     monkeypatch.setattr(crossing_plugs, "_less", lambda mesh, sizes, places: mesh)
     assert without_crossings(mesh, 10.0, monitor) is mesh
@@ -81,7 +81,7 @@ def test_spheres_that_overlap_by_a_hair_are_drawn_apart():
 
 def test_what_cannot_be_drawn_apart_goes_with_a_little_of_the_room_about_it(monkeypatch):
     monkeypatch.setattr(
-        crossing_plugs, "resolve_fold_crossings", lambda mesh, monitor, turns: (mesh, None)
+        crossing_plugs, "resolve_fold_crossings", lambda mesh, monitor, folded: (mesh, None)
     )
     mesh = overlapping_spheres()
     plugged = without_crossings(mesh, 10.0, Monitor())

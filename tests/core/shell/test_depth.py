@@ -68,7 +68,7 @@ def test_planes_touch_the_wall(box):
 
 def test_strays_are_relative_to_the_thickness(box):
     points = np.array([[20.0, 15.0, 2.0], [20.0, 15.0, 2.2], [20.0, 15.0, 1.8]])
-    np.testing.assert_allclose(box.strays(points), [0.0, 0.1, -0.1], atol=1e-9)
+    np.testing.assert_allclose(box.deviation(points), [0.0, 0.1, -0.1], atol=1e-9)
 
 
 def test_the_planes_of_a_ball_touch_the_smaller_ball():

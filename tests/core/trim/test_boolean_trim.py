@@ -24,7 +24,7 @@ from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
 from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.octants.octant_spec import OctantSpec
-from volfrep.spatial.resolve_crossings import turns_of
+from volfrep.spatial.resolve_crossings import folds_of
 from volfrep.trim import boolean_trim, group_cut, octant_groups
 from volfrep.trim.boolean_trim import trim
 from volfrep.trim.culling import cull, octant_roles
@@ -117,14 +117,14 @@ def test_what_groups_tell_of_folds_is_what_a_look_at_all_of_it_finds(cavity, mon
     surface = trimmed(domain, radius=1.3, cavity=cavity, precision=shortest_edge(domain)).surface
     mesh, looks = surface.mesh, surface.looks
     assert looks.step == decimal_step(mesh.vertices)
-    one, two = turns_of(mesh, Monitor()), turns_of(mesh, Monitor(), looks=looks)
+    one, two = folds_of(mesh, Monitor()), folds_of(mesh, Monitor(), looks=looks)
     assert one.among.any()
     assert looks.apart.sum() > 0.5 * one.among.sum(), "few are left to be looked at"
     np.testing.assert_array_equal(one.among, two.among)
     np.testing.assert_array_equal(one.pairs, two.pairs)
     # Where nothing is known all of it is looked at.
     unknown = replace(looks, marks=np.zeros_like(looks.marks))
-    np.testing.assert_array_equal(turns_of(mesh, Monitor(), looks=unknown).among, one.among)
+    np.testing.assert_array_equal(folds_of(mesh, Monitor(), looks=unknown).among, one.among)
 
 
 def test_octants_that_do_not_fit_to_the_cut_are_found_out():

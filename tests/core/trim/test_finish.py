@@ -15,7 +15,7 @@ from volfrep.mesh.float32_repair import without_slivers
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.output.meshes import write_mesh
-from volfrep.spatial.resolve_crossings import Turns, resolve_fold_crossings, turns_of
+from volfrep.spatial.resolve_crossings import Folds, folds_of, resolve_fold_crossings
 from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.trim.finish import finish, refuse_merging, thinned, tidy
 from volfrep.trim.group_cut import rim_of
@@ -280,7 +280,7 @@ def test_octants_about_facets_that_cross_go_along_and_the_others_stay_beside(mon
     def crossing(mesh, *_, looks):
         at_rim.append(rim_of(mesh)[0])
         pair = np.flatnonzero((mesh.triangles == at_rim[0]).any(axis=1))[:2]
-        return Turns(np.zeros(len(mesh.triangles), bool), pair[None])
+        return Folds(np.zeros(len(mesh.triangles), bool), pair[None])
 
     def nudged(mesh, monitor, deformed, turns):
         assert len(turns.among) == len(mesh.triangles)
@@ -288,7 +288,7 @@ def test_octants_about_facets_that_cross_go_along_and_the_others_stay_beside(mon
         vertices[at_rim[0]] += 1e-4
         return TriangleMesh(vertices, mesh.triangles), None
 
-    monkeypatch.setattr("volfrep.trim.finish.turns_of", crossing)
+    monkeypatch.setattr("volfrep.trim.finish.folds_of", crossing)
     monkeypatch.setattr("volfrep.trim.finish.resolve_fold_crossings", nudged)
     result = fill(samples.box((36.0, 36.0, 36.0)), LatticeSpec("Box", 6.0, 0.5, shell=1.0))
     assert result.surface.octants is not None
@@ -305,12 +305,12 @@ def test_facets_that_are_all_but_lines_go_where_they_cross():
         moved(corner, (178.0, 0.0, 0.0)),
     )
     monitor = Monitor()
-    turns = turns_of(mesh, monitor, True)
+    turns = folds_of(mesh, monitor, True)
     assert len(turns.pairs)
     drawn, place = resolve_fold_crossings(mesh, monitor, True, turns)
     assert place is not None
     surface, apart, left = thinned(TrimmedSurface(mesh), turns, drawn, place, monitor, True)
     assert left is None
-    assert not len(turns_of(apart, monitor, True).pairs)
+    assert not len(folds_of(apart, monitor, True).pairs)
     assert len(mesh.triangles) - 8 < len(apart.triangles) < len(mesh.triangles)
     assert surface.mesh.area == pytest.approx(mesh.area, rel=1e-5)

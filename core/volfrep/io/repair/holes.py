@@ -37,7 +37,7 @@ class _Hole:
     rim: Ints
     normal: Floats
     width: float
-    stray: float
+    deviation: float
 
     @property
     def area(self) -> float:
@@ -108,10 +108,10 @@ def close_holes(mesh: TriangleMesh) -> tuple[TriangleMesh, list[str], str]:
     closed: list[_Hole] = []
     for face in _faces(holes, mesh):
         area = abs(float(np.linalg.norm(sum(hole.normal for hole in face)))) / 2.0
-        width, stray = max(h.width for h in face), max(h.stray for h in face)
-        most = MOST_FLAT_AREA if stray <= FLAT * width else MOST_CURVED_AREA
+        width, deviation = max(h.width for h in face), max(h.deviation for h in face)
+        most = MOST_FLAT_AREA if deviation <= FLAT * width else MOST_CURVED_AREA
         place = place_text(mesh.vertices[face[0].rim].mean(axis=0))
-        if stray > NEARLY_FLAT * width:
+        if deviation > NEARLY_FLAT * width:
             left = f"the hole near {place} is not flat enough to be closed for certain"
         elif area > most * total:
             left = f"the hole near {place} is too large to be closed for certain"
@@ -174,8 +174,8 @@ def _hole(mesh: TriangleMesh, rim: Ints) -> _Hole:
     centred = points - points.mean(axis=0)
     width = _farthest_apart(points)
     length = float(np.linalg.norm(normal))
-    stray = float(np.abs(along(centred, normal)).max()) / length if length > 0.0 else np.inf
-    return _Hole(rim, normal, width, stray if len(rim) > 3 else 0.0)
+    deviation = float(np.abs(along(centred, normal)).max()) / length if length > 0.0 else np.inf
+    return _Hole(rim, normal, width, deviation if len(rim) > 3 else 0.0)
 
 
 def _farthest_apart(points: Floats) -> float:
@@ -205,7 +205,7 @@ def _faces(holes: list[_Hole], mesh: TriangleMesh) -> list[list[_Hole]]:
             inside = (points >= around.min(axis=0) - above).all() and (
                 points <= around.max(axis=0) + above
             ).all()
-            flat = outer.stray <= FLAT * outer.width and above <= FLAT * outer.width
+            flat = outer.deviation <= FLAT * outer.width and above <= FLAT * outer.width
             if flat and inside and float(along(hole.normal, unit)) < 0.0:
                 face.append(hole)
                 break

@@ -62,7 +62,7 @@ TIMES_THICKER = 2.0
 DRAWN = 3
 
 #: Points of a network's room and the volume that each stands for, mm and mm3.
-Room = Callable[[Wireframe], tuple[Floats, Floats]]
+Sampler = Callable[[Wireframe], tuple[Floats, Floats]]
 #: Points for the table of a target, as a power of 2.
 POINTS = FINE - 2
 
@@ -197,17 +197,17 @@ class GraphLattice(SurfaceLattice):
         domain = part.domain.mesh
         wanted = WantedVolume(target, spec.density, domain.volume, part.skin_volume)
 
-        def room(frame: Wireframe) -> tuple[Floats, Floats]:
+        def sampler(frame: Wireframe) -> tuple[Floats, Floats]:
             if spec.is_cut:
                 return points_inside(domain, POINTS, monitor)
             return points_about(frame, REACH * THICKEST * median_length(frame), POINTS)
 
         with monitor.stage("target", 0.3, 0.4):
             fixed = with_radius(
-                spec, part.placement, lambda: domain, room, wanted.lattice, wanted.skin, monitor
+                spec, part.placement, lambda: domain, sampler, wanted.lattice, wanted.skin, monitor
             )
             frame = graph_struts(fixed, part.placement, lambda: domain, monitor)
-            return GraphSearch(fixed, wanted, volumes(frame, fixed, room))
+            return GraphSearch(fixed, wanted, volumes(frame, fixed, sampler))
 
 
 class GraphBlock(BlockLattice):
@@ -492,7 +492,7 @@ def with_radius(
     spec: LatticeSpec,
     placement: Placement,
     domain_of: Callable[[], TriangleMesh],
-    room: Room,
+    sampler: Sampler,
     wanted: float,
     skin: float,
     monitor: Monitor,
@@ -506,7 +506,7 @@ def with_radius(
         spec: with a network and a target.
         placement: where it lies in the part.
         domain_of: gives what is filled.
-        room: gives points of that, or of all about the network where nothing cuts it.
+        sampler: gives points of that, or of all about the network where nothing cuts it.
         wanted: the network's volume, mm3.
         skin: of the part, mm3; named where no radius meets the target.
         monitor: for progress and cancel.
@@ -521,7 +521,7 @@ def with_radius(
             shortest = SHORTEST * spec.strut_radius
             spec = replace(spec, network=replace(network, shortest=shortest))
         frame = graph_struts(spec, placement, domain_of, monitor)
-        table, median = volumes(frame, spec, room), median_length(frame)
+        table, median = volumes(frame, spec, sampler), median_length(frame)
         low, high = (share * median for share in (THINNEST, THICKEST))
         least, most = table.at(low), table.at(high)
         if not least <= wanted <= most:
@@ -535,8 +535,8 @@ def with_radius(
     return spec
 
 
-def volumes(frame: Wireframe, spec: LatticeSpec, room: Room) -> VolumeByRadius:
+def volumes(frame: Wireframe, spec: LatticeSpec, sampler: Sampler) -> VolumeByRadius:
     """A network's volumes over the radius of its struts; arguments as of `with_radius`."""
-    points, weights = room(frame)
+    points, weights = sampler(frame)
     median = median_length(frame)
     return volume_by_radius(frame, spec.strut_radius, median, points, weights, THICKEST * median)

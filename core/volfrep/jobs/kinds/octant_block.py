@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class LaidBlock:
+class PlacedBlock:
     """The octants of a block, laid.
 
     Attributes:
@@ -63,19 +63,19 @@ class OctantBlock(BlockLattice):
     def __init__(self, kind: LatticeKind, count: Sequence[int]) -> None:
         super().__init__(kind, count)
         self.cells, self.placement = block_placement(self.spec.grid, self.count)
-        self._laid: LaidBlock | None = None
+        self._laid: PlacedBlock | None = None
 
     @abstractmethod
-    def lay(self, monitor: Monitor) -> LaidBlock:
+    def lay(self, monitor: Monitor) -> PlacedBlock:
         """Mesh and lay the octants."""
 
-    def _lay_once(self, monitor: Monitor) -> LaidBlock:
+    def _lay_once(self, monitor: Monitor) -> PlacedBlock:
         if self._laid is None:
             self._laid = self.lay(monitor)
         return self._laid
 
     @abstractmethod
-    def placed(self, laid: LaidBlock, monitor: Monitor) -> Deformed:
+    def placed(self, laid: PlacedBlock, monitor: Monitor) -> Deformed:
         """Where the vertices of laid octants are."""
 
     @property
@@ -109,7 +109,7 @@ class OctantBlock(BlockLattice):
         refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None, shape)
         return self._meshed(laid, monitor)
 
-    def _meshed(self, laid: LaidBlock, monitor: Monitor) -> Result:
+    def _meshed(self, laid: PlacedBlock, monitor: Monitor) -> Result:
         """It as a whole, without its specks."""
         # Of no use to a block that goes straight into a file, and slow to import.
         from ...trim.finish import finish
@@ -169,7 +169,7 @@ class OctantBlock(BlockLattice):
         return self._report(laid, certify(laid.layout), monitor, _removed(laid))
 
     def _report(
-        self, laid: LaidBlock, measured: Quality, monitor: Monitor, removed: Mapping[str, Any]
+        self, laid: PlacedBlock, measured: Quality, monitor: Monitor, removed: Mapping[str, Any]
     ) -> Report:
         report = report_of(
             measured, self.frame, self.cells, self.active, self.placement, self.spec, monitor,
@@ -184,6 +184,6 @@ def _fits_a_file(layout: Layout, measured: Quality) -> bool:
     return agree_on_faces(layout) and keeps_corners(kinds, edge, measured.bounds)
 
 
-def _removed(laid: LaidBlock) -> dict[str, Any]:
+def _removed(laid: PlacedBlock) -> dict[str, Any]:
     """What a block is without."""
     return {**NOTHING_REMOVED, "pieces_removed": laid.loose}

@@ -19,7 +19,7 @@ from ...octants.octant_mesh import mesh_octants, octant_spec
 from ...util.progress import Monitor
 from .. import octant_guard as guard
 from ..finer import until_sound
-from .octant_block import LaidBlock, OctantBlock
+from .octant_block import OctantBlock, PlacedBlock
 
 if TYPE_CHECKING:
     from ...lattice.deform import Deformed
@@ -55,7 +55,7 @@ class StrutBlock(OctantBlock):
         refuse_block(self.cells.shape, BYTES_PER_STRUT * len(self.spec.unit_cell().struts))
         return self.frame
 
-    def lay(self, monitor: Monitor) -> LaidBlock:
+    def lay(self, monitor: Monitor) -> PlacedBlock:
         """Mesh and lay the octants."""
         spec, cells = self.spec, self.cells
         spec.kind.refuse_crossing()
@@ -68,9 +68,9 @@ class StrutBlock(OctantBlock):
             )
             guard.refuse_solid_cells(octants, used)
             notes += guard.deviation_warnings(octants, used)
-            return LaidBlock(lay_out(grid, octants), used, notes)
+            return PlacedBlock(lay_out(grid, octants), used, notes)
 
-    def placed(self, laid: LaidBlock, monitor: Monitor) -> Deformed:
+    def placed(self, laid: PlacedBlock, monitor: Monitor) -> Deformed:
         """Where the vertices of laid octants are."""
         from ...lattice.padded_grid import vertices_of
 

@@ -52,7 +52,7 @@ from ..tpms.stiffness import solve_tpms_stiffness, tpms_modulus
 from ..tpms.symmetry import is_mirror_symmetric
 from ..tpms.voxels import tpms_density
 from .kind import UNDRAWN, EndlessRequest, LatticeKind
-from .octant_block import LaidBlock, OctantBlock
+from .octant_block import OctantBlock, PlacedBlock
 from .octant_lattice import OctantLattice
 
 #: Points for the table, as a power of 2.
@@ -263,7 +263,7 @@ class TpmsBlock(OctantBlock):
         self.spec.unit_cell()
         return self.frame
 
-    def lay(self, monitor: Monitor) -> LaidBlock:
+    def lay(self, monitor: Monitor) -> PlacedBlock:
         """Mesh and lay the octants."""
         cells, size = self.cells, self.spec.cell_size
         with monitor.stage("tile", 0.0, 0.4):
@@ -277,9 +277,9 @@ class TpmsBlock(OctantBlock):
             layout = lay_out(grid, closed.octants)
         pairs = zip(grid.keys, layout.places, strict=True)
         loose = sum(len(closed.loose[key]) * len(place) for key, place in pairs)
-        return LaidBlock(layout, used, notes, loose)
+        return PlacedBlock(layout, used, notes, loose)
 
-    def placed(self, laid: LaidBlock, monitor: Monitor) -> Deformed:
+    def placed(self, laid: PlacedBlock, monitor: Monitor) -> Deformed:
         """Where the vertices of laid octants are."""
         return place_tpms(laid.layout, self.spec, self.placement, monitor)
 

@@ -215,7 +215,7 @@ def _field(
         reach = _reach(skin.points, centres)
         wanted = shares_of(skin.points, outside, reach) @ chosen
     wanted = np.ceil(wanted / STEP - 1e-6) * STEP
-    depth = np.minimum(wanted, 0.5 * model.room[rows])
+    depth = np.minimum(wanted, 0.5 * model.thickness_below[rows])
     inwards = model.inside[rows] - outside
     inwards /= np.maximum(np.linalg.norm(inwards, axis=1), 1e-300)[:, None]
     places = outside + depth[:, None] * inwards
@@ -262,7 +262,7 @@ def thickness_there(model: SizingModel, domain: TriangleMesh) -> dict[str, Any]:
     places = skin.outside.vertices[shells.triangles].mean(axis=1)
     asked = shells.thickness
     found = closest_points(domain, places)[1]
-    clear = asked < 0.49 * skin.room[shells.triangles].min(axis=1)
+    clear = asked < 0.49 * skin.thickness_below[shells.triangles].min(axis=1)
     share = found[clear] / asked[clear]
     area = shells.area[clear]
     order = np.argsort(share)

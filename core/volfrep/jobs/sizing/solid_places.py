@@ -133,7 +133,9 @@ def solid_places(
     assert skin is not None
     shells = skin.shells
     was_filled = filled.depth(skin.middle[shells.triangles].mean(axis=1)) > 0.0
-    full = was_filled | (shells.thickness >= _MEETS * skin.room[shells.triangles].mean(axis=1))
+    full = was_filled | (
+        shells.thickness >= _MEETS * skin.thickness_below[shells.triangles].mean(axis=1)
+    )
     own = shells.triangles[full]
     if not len(own):
         return []

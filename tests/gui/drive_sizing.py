@@ -115,6 +115,8 @@ def size_and_take(doc, obj):
     picture("sizing_2_sized")
     figures["shades"] = shades("sizing_2_sized", view_3d())
     check("in colours", figures["shades"] > 200, figures["shades"])
+    bar = part("Steps").horizontalScrollBar()
+    check("no column of the steps is cut off", bar.maximum() == 0, bar.maximum())
     click(part("Plot"))
     check("the steps have a plot", wait_until(lambda: window("VolfrepPlot") is not None))
     shown = window("VolfrepPlot").findChild(QtGui.QLabel, "Plot").pixmap()

@@ -53,6 +53,8 @@ HEADER = (
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Work, N mm"),
     QT_TRANSLATE_NOOP("VolfrepSizePanel", "Most used limit"),
 )
+#: Columns that say something for one of the goals only.
+WORK, USED = 2, 3
 #: Fields: name of `volfrep.jobs.sizing.GOALS`, label, unit, what it means.
 FIELDS = (
     (
@@ -189,6 +191,10 @@ class SizePanel:
         self._loads.end_picking()
         self._say("")
         self._steps.clear()
+        # What is looked for, and no more: the panel is narrow.
+        for column in (WORK, USED):
+            only = "mass" if column == USED else "stiffness"
+            self._table.setColumnHidden(column, self._goal.currentData() != only)
         self._show_steps()
         self._outcome = None
         self._plot.setEnabled(False)

@@ -289,6 +289,83 @@ def test_a_script_sizes_in_one_call(infill):
 
 
 @pytest.mark.slow
+def test_a_sized_skin_goes_into_the_part_and_stays_with_the_document(infill, tmp_path):
+    """Thicknesses are stored, followed, told, undone and opened again."""
+    doc, infill.ShellThickness = infill.Document, 1.0
+    analysis = loaded(infill, force=1000.0)
+    told = thickness_at_points(infill)
+    doc.openTransaction("Loads and Sizing")
+    outcome = size_lattice(
+        infill, [analysis], safety=2, thinnest=0.3, thickest=1.6, skin_thinnest=0.5,
+        skin_thickest=2.5, prove=False,
+    )  # fmt: skip
+    doc.commitTransaction()
+    assert outcome.holds
+    low, high = outcome.part.report["skin"]["thickness_mm"]
+    assert high > 1.5 * low
+    assert (infill.ShellThickness.Value, infill.SkinFollowsSizing) == (0.5, True)
+    assert infill.Proxy.update(infill), infill.Status
+    # The part weighs what the search has told, skin and struts.
+    split = dict(row[:2] for table in outcome.tables() if table.title == "Mass"
+                 for row in table.rows)  # fmt: skip
+    assert infill.Volume.Value * outcome.density / 1000.0 == pytest.approx(
+        split["mass, g"], rel=0.01
+    )
+    assert split["mass, g"] == pytest.approx(
+        split["mass of the struts, g"] + split["mass of the skin, g"]
+    )
+    assert "a skin of" in outcome.summary()
+    # Its outside is coloured by what was asked for there.
+    sized = thickness_at_points(infill)
+    assert told == pytest.approx(1.0)
+    assert 0.5 <= sized.min() < 1.1 * low
+    assert sized.max() >= 0.9 * high  # where it is solid, so much goes in from either side
+    assert why_no_states(infill) == ""
+
+    volume, path = infill.Volume.Value, str(tmp_path / "skin.FCStd")
+    doc.saveCopy(path)
+    copy = App.openDocument(path)
+    try:
+        again = copy.getObject(infill.Name)
+        assert why_no_states(again) == ""
+        assert thickness_at_points(again) == pytest.approx(sized, abs=1e-5)
+        again.touch()
+        copy.recompute()
+        assert again.Volume.Value == pytest.approx(volume, rel=1e-6)
+        again.SkinFollowsSizing = False
+        assert thickness_at_points(again) == pytest.approx(0.5)
+        assert "size it again" in why_no_states(again)
+    finally:
+        App.closeDocument(copy.Name)
+    App.setActiveDocument(doc.Name)
+    doc.undo()
+    assert (infill.ShellThickness.Value, len(infill.SizedSkin)) == (1.0, 0)
+    doc.redo()
+    assert thickness_at_points(infill) == pytest.approx(sized)
+    # A file goes before it.
+    table = tmp_path / "thickness.csv"
+    table.write_text("x,y,z,mm\n0,5,5,0.8\n30,5,5,0.8\n")
+    infill.SkinField = str(table)
+    assert thickness_at_points(infill) == pytest.approx(0.8)
+
+
+def thickness_at_points(infill):
+    """What Colour By shows as the thickness of the skin, at the middles of its solid's facets."""
+    solid, spec, _ = infill.Proxy.wanted(infill)
+    middles = solid.vertices[solid.triangles].mean(axis=1)
+    return point_values(solid, spec, "Skin", middles, middles).values
+
+
+@pytest.mark.slow
+def test_a_mass_may_be_that_of_struts_and_skin(infill):
+    infill.ShellThickness = 1.0
+    loaded(infill)
+    outcome = size_lattice(infill, goal="stiffness", strut_mass=9.0, skin_thinnest=0.5, prove=False)
+    split = outcome.part.report["masses_g"]
+    assert split["struts"] + split["skin"] == pytest.approx(9.0, rel=0.1)  # shells overlap at edges
+
+
+@pytest.mark.slow
 def test_a_random_network_is_sized_as_cells_are(doc):
     box = doc.addObject("Part::Box", "Beam")
     box.Length, box.Width, box.Height = 30, 10, 10

@@ -475,6 +475,55 @@ def choose(name, entry, read):
 
 
 @slow
+def size_the_skin(doc, obj):
+    """The skin's thickness is typed in, found, seen in colours, taken, and undone in one step."""
+    before, steps = obj.ShellThickness.Value, doc.UndoCount
+    open_panel(obj)
+    for name, text in (("safety", "40"), ("skin_thinnest", "0.6"), ("skin_thickest", "3")):
+        click(part(name))
+        xdotool("key", "ctrl+a")
+        xdotool("type", text)
+        xdotool("key", "Tab")
+    check("they are taken", part("skin_thinnest").property("rawValue") == 0.6)
+    click(part("Prove"))
+    click(part("Size"))
+    found = wait_until(lambda: "a skin of" in part("Said").text(), MINUTES)
+    check("it says how thick the skin is", found, part("Said").text())
+    figures["said of the skin"] = part("Said").text()
+    picture("skin_1_sized")
+    start_answer("OK")
+    check("a report opens", wait_until(lambda: len(reports()) == 1, MINUTES))
+    told = reports()[0].text.toPlainText()
+    check("it splits the mass", "mass of the skin, g" in told and "mean thickness, mm" in told)
+    picture("skin_2_report")
+    reports()[0].close()
+    settle(MINUTES)
+    check("the lattice is up to date", obj.Status == "Up to date", obj.Status)
+    check("its skin is the sized one", obj.SkinFollowsSizing and len(obj.SizedSkin) > 10)
+    check("nowhere less than asked", obj.ShellThickness.Value == 0.6, obj.ShellThickness)
+    select(obj)
+    click(toolbar_button("Colour By"))
+    check("colours open", wait_until(lambda: dock() is not None, 20))
+    quantity = dock().findChild(QtGui.QComboBox, "Quantity")
+    quantity.setCurrentIndex(quantity.findData("Skin"))
+    ends = dock().findChild(QtGui.QDoubleSpinBox, "To")
+    low = dock().findChild(QtGui.QDoubleSpinBox, "From")
+    check("the skin has a scale", wait_until(lambda: ends.value() > low.value() >= 0.59, 60),
+          (low.value(), ends.value()))  # fmt: skip
+    settle()
+    picture("skin_3_colours")
+    figures["shades of the skin"] = shades("skin_3_colours", view_3d())
+    check("in colours", figures["shades of the skin"] > 150, figures["shades of the skin"])
+    obj.ViewObject.ColourBy = "None"
+    dock().close()
+    settle()
+    while doc.UndoCount > steps:
+        doc.undo()
+    check("undo gives the skin back", obj.ShellThickness.Value == before, obj.ShellThickness)
+    check("and takes what was found", not len(obj.SizedSkin) and not obj.SkinFollowsSizing)
+
+
+@slow
 def size_a_solid(doc, box):
     """Loads and Sizing of a solid makes its lattice, which Cancel takes away and OK shows."""
     steps = doc.UndoCount
@@ -641,6 +690,7 @@ run_checks(
         cancel_the_panel: loaded,
         escape_keeps_the_best: lambda: loaded((120, 40, 40)),
         show_results: loaded,
+        size_the_skin: lambda: loaded(ShellThickness=1),
         load_by_clicks: filled,
         size_a_solid: boxed,
         open_and_size_the_bracket: None,

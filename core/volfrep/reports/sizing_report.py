@@ -59,6 +59,11 @@ def sizing_report(
         "strut_volume_mm3": final.volume,
         "strut_mass_g": final.volume * density / 1000.0,
         "skin_mass_g": model.skin_volume * density / 1000.0,
+        "masses_g": {
+            "struts": final.volume * density / 1000.0,
+            "skin": model.skin_volume * density / 1000.0,
+            "solid": 0.0,
+        },
         "holds": sized.holds,
         "uses": final.uses,
         "cases": [_case(model, before, final, k) for k in range(len(problem.cases))],

@@ -20,7 +20,7 @@ CONTROLS = tuple(
         for name in need.names
     }
     | {p.switch_name: None for p in PARAMETERS if p.switch}
-    | {"PrintMaterial": None}
+    | {"PrintMaterial": None, "SizedSkin": None}
 )
 _SHOWN, _READ_ONLY, _HIDDEN = 0, 1, 2
 #: Properties that are shown, but written by us, unless another one has this value.
@@ -43,6 +43,7 @@ def show_applicable(obj: App.DocumentObject) -> None:
             _show(obj, parameter.switch_name, applies)
             applies = applies and getattr(obj, parameter.switch_name)
         _show(obj, parameter.property_name, applies)
+    _show(obj, "SkinFollowsSizing", "SizedSkin" in obj.PropertiesList and bool(obj.SizedSkin))
     for name, (driver, own) in _DRIVEN.items():
         if getattr(obj, driver) != own and "Hidden" not in obj.getEditorMode(name):
             obj.setEditorMode(name, _READ_ONLY)

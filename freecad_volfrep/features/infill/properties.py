@@ -140,6 +140,14 @@ def _first_value(parameter: Parameter) -> Any:
 
 PROPERTIES = (
     *_inputs(),
+    Property(
+        "App::PropertyBool",
+        "SkinFollowsSizing",
+        SKIN,
+        "The skin has the thickness that Loads and Sizing has found, and nowhere less than "
+        "ShellThickness",
+        False,
+    ),
     result("App::PropertyString", "Status", "Whether the mesh fits the properties, or why not"),
     result("App::PropertyString", "Expected", "What an update of these properties comes to"),
     result("App::PropertyStringList", "Warnings", "What to know about this result"),
@@ -169,6 +177,8 @@ PROPERTIES = (
     _internal("App::PropertyString", "Fingerprint", "Of all that the mesh was made from", ""),
     _internal("App::PropertyVectorList", "SizedNodes", "Of SizedRadii, as Base lies", []),
     _internal("App::PropertyFloatList", "SizedRadii", "That struts were sized to, mm", []),
+    _internal("App::PropertyVectorList", "SizedSkinPoints", "Of SizedSkin, as Base lies", []),
+    _internal("App::PropertyFloatList", "SizedSkin", "That the skin was sized to, mm", []),
     _internal("App::PropertyFloatList", "SizedStates", "What the sized struts carry", []),
     _internal("App::PropertyString", "SizedFor", "Of all that SizedStates are of", ""),
     _internal("App::PropertyString", "SizedLoads", "Of what the struts were sized for", ""),

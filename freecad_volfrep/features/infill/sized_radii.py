@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Radii that an infill's struts were sized to: kept in the document, as a field that they follow.
+"""What an infill was sized to: radii of its struts and thicknesses of its skin, kept as fields.
 
-They are an ordinary graded lattice: RadiusGrading is Field, and RadiusCurve takes each value for a
-radius in mm. A file or a FEM result that is chosen later goes before them.
+Radii are an ordinary graded lattice: RadiusGrading is Field, and RadiusCurve takes each value for a
+radius in mm. A file or a FEM result that is chosen later goes before them. The skin follows its own
+as long as SkinFollowsSizing says so, and a file goes before it, too.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 import numpy as np
@@ -39,9 +40,7 @@ def store_radii(
         obj.SizedNodes, obj.SizedRadii = [], []
         obj.RadiusGrading, obj.StrutRadius = "None", low
         return
-    matrix = np.array(_from_base(obj).inverse().toMatrix().A).reshape(4, 4)
-    placed = nodes @ matrix[:3, :3].T + matrix[:3, 3]
-    obj.SizedNodes = [App.Vector(*point) for point in placed.tolist()]
+    obj.SizedNodes = _as_base_lies(obj, nodes)
     obj.SizedRadii = kept.tolist()
     obj.RadiusCurve = f"{low:g}:{low:g}, {high:g}:{high:g}"
     obj.RadiusGrading = "Field"
@@ -49,15 +48,47 @@ def store_radii(
 
 def sized_field(obj: App.DocumentObject) -> PointField | None:
     """The stored radii in the coordinates of the infill's group; None where there are none."""
+    return _field(obj, obj.SizedNodes, obj.SizedRadii)
+
+
+def store_skin(obj: App.DocumentObject, least: float, thickness: PointField) -> None:
+    """Let the skin follow a thickness that it was sized to; the next recompute makes the mesh.
+
+    Args:
+        obj: a lattice infill with a Base.
+        least: mm, that the skin has nowhere less than.
+        thickness: mm, in the coordinates of the infill's group.
+    """
+    obj.ShellThickness, obj.SkinField, obj.SkinFollowsSizing = least, "", True
+    obj.SizedSkinPoints = _as_base_lies(obj, thickness.points)
+    obj.SizedSkin = np.round(thickness.values, DECIMALS).tolist()
+
+
+def sized_skin(obj: App.DocumentObject) -> PointField | None:
+    """The thickness that the skin follows; None where it follows none that was found."""
+    if not obj.SkinFollowsSizing or not obj.ShellThickness.Value:
+        return None
+    return _field(obj, obj.SizedSkinPoints, obj.SizedSkin)
+
+
+def _field(obj: App.DocumentObject, points: Any, values: Any) -> PointField | None:
+    """Values at points of the base, in the coordinates of the infill's group; None without any."""
     from volfrep.design.scattered_field import PointField
 
-    if not obj.SizedRadii or obj.Base is None:
+    if not values or obj.Base is None:
         return None
     matrix = np.array(_from_base(obj).toMatrix().A).reshape(4, 4)
-    nodes = np.array([tuple(point) for point in obj.SizedNodes], np.float64)
+    places = np.array([tuple(point) for point in points], np.float64)
     # What a placement that is undone loses does not count as a change.
-    placed = np.round(nodes @ matrix[:3, :3].T + matrix[:3, 3], DECIMALS)
-    return PointField(placed, np.array(obj.SizedRadii, np.float64), source=SOURCE)
+    placed = np.round(places @ matrix[:3, :3].T + matrix[:3, 3], DECIMALS)
+    return PointField(placed, np.array(values, np.float64), source=SOURCE)
+
+
+def _as_base_lies(obj: App.DocumentObject, points: NDArray[np.float64]) -> list[App.Vector]:
+    """Points (n, 3) of the infill's group in the base's own coordinates."""
+    matrix = np.array(_from_base(obj).inverse().toMatrix().A).reshape(4, 4)
+    placed = points @ matrix[:3, :3].T + matrix[:3, 3]
+    return [App.Vector(*point) for point in placed.tolist()]
 
 
 def _from_base(obj: App.DocumentObject) -> App.Placement:

@@ -21,7 +21,7 @@ from volfrep.design.target import read_target
 from volfrep.util.errors import VolfrepError
 
 from .materials import material_of
-from .sized_radii import sized_field
+from .sized_radii import sized_field, sized_skin
 
 if TYPE_CHECKING:
     from volfrep.design.scattered_field import PointField
@@ -109,6 +109,7 @@ def values_in_effect(obj: App.DocumentObject) -> tuple[dict[str, Any], Target | 
             values[name] = values[name] or values[usual]
     if "radius_field" in values:
         values["radius_field"] = _field(obj)
+    values["skin_field"] = values["skin_field"] or sized_skin(obj)
     if values.get("network") == "faces":
         values["network_faces"] = laid_along_faces(obj, values)
     return values, target

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Sizing an infill's struts for the analyses of its document, and solving them as they are."""
+"""Sizing an infill's struts and skin for its document's analyses, and solving them as they are."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from freecad_volfrep.features.infill.materials import material_of
-from freecad_volfrep.features.infill.sized_radii import store_radii
+from freecad_volfrep.features.infill.sized_radii import store_radii, store_skin
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.reports.tables import Table
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
@@ -42,8 +42,9 @@ ONLY_OF = {
 }
 #: The limits' names, marked for translation.
 LIMIT_NAMES = marked(
-    "VolfrepSizePanel", "stress", "displacement", "buckling", "frame buckling", "frequency"
-)
+    "VolfrepSizePanel", "stress", "displacement", "buckling", "frame buckling", "frequency",
+    "skin stress",
+)  # fmt: skip
 #: What the panel begins with: safety against yield; radii over the present one.
 FIRST_SAFETY, SMALLEST, LARGEST = 1.5, 0.5, 2.0
 NO_ANALYSIS = (
@@ -138,15 +139,18 @@ class Outcome:
         from volfrep.reports.sizing_report import least_gain
 
         sized, before, even = self.part.sized.analysis, self.part.before, self.part.even
+        report = self.part.report
         if not self.holds:
-            there = (self.part.report["calculix"] or {}).get("uses", {})
-            uses = {name: max(use, there.get(name, 0.0)) for name, use in sized.uses.items()}
+            there = (report["calculix"] or {}).get("uses", {})
+            uses = {name: max(use, there.get(name, 0.0)) for name, use in report["uses"].items()}
             worst = max(uses, key=lambda name: uses[name])
             return translate(
                 "VolfrepSizePanel",
                 "The limit of {limit} cannot be held between these radii: {use:.0%} of it is used. "
                 "Allow thicker struts, or larger cells.",
             ).format(limit=translate("VolfrepSizePanel", worst), use=uses[worst])
+        if "skin" in report:
+            return self._found_skin()
         if even is None:
             gain = float(before.compliance.sum() / sized.compliance.sum())
             return translate(
@@ -164,6 +168,31 @@ class Outcome:
             "VolfrepSizePanel",
             "Struts of {mass:.4g} g hold all limits; of one radius they would weigh {even:.4g} g.",
         ).format(mass=self.mass, even=_mass(analysis.volume, self.density))
+
+    def _found_skin(self) -> str:
+        """What was found of struts and skin together, in a sentence."""
+        skin, split = self.part.report["skin"], self.part.report["masses_g"]
+        low, high = skin["thickness_mm"]
+        said = translate(
+            "VolfrepSizePanel",
+            "Struts of {struts:.4g} g and a skin of {low:.3g} to {high:.3g} mm, {skin:.4g} g.",
+        ).format(struts=split["struts"], skin=split["skin"], low=low, high=high)
+        if split["solid"]:
+            solid = translate(
+                "VolfrepSizePanel", "Of the skin {solid:.4g} g are solid from side to side."
+            )
+            said = f"{said} {solid.format(solid=split['solid'])}"
+        if self.part.even is None:
+            return said
+        held = translate("VolfrepSizePanel", "All limits are held.")
+        even = skin["even"]
+        if even is not None and even["holds"]:
+            held = translate(
+                "VolfrepSizePanel",
+                "All limits are held; one radius and one thickness for all would weigh {even:.4g} "
+                "g.",
+            ).format(even=_mass(even["volume_mm3"], self.density))
+        return f"{said} {held}"
 
     def tables(self) -> list[Table]:
         """Before and after, case by case, and the steps: English, as saved tables are."""
@@ -185,6 +214,11 @@ class Outcome:
         printed = self.part.report.get("as_printed")
         if printed is not None:
             tables.append(Table("As printed, of which all figures are", _printed_rows(printed)))
+        split = self.part.report["masses_g"]
+        if split["skin"]:
+            tables.append(Table("Mass", tuple(_split_rows(split))))
+        if "skin" in self.part.report:
+            tables.append(Table("Skin", tuple(_skin_rows(self.part.report))))
         for k, state in enumerate(self.states):
             rows = [
                 ("work of the loads, N mm", *(float(a.compliance[k]) for _, a in columns)),
@@ -224,6 +258,34 @@ class Outcome:
     def to_json(self) -> str:
         """All figures, as the infill keeps them."""
         return json.dumps(self.part.report)
+
+
+def _split_rows(split: Mapping[str, float]) -> list[tuple[Any, ...]]:
+    """What of the part weighs what."""
+    rows: list[tuple[Any, ...]] = [
+        ("mass of the struts, g", split["struts"]),
+        ("mass of the skin, g", split["skin"]),
+    ]
+    if split["solid"]:
+        rows.append(("of that solid, g", split["solid"]))
+    return [*rows, ("mass, g", split["struts"] + split["skin"])]
+
+
+def _skin_rows(report: Mapping[str, Any]) -> list[tuple[Any, ...]]:
+    """A skin that was sized: how thick it is, and how much it is stressed."""
+    skin = report["skin"]
+    low, high = skin["thickness_mm"]
+    rows: list[tuple[Any, ...]] = [
+        ("smallest thickness, mm", low),
+        ("mean thickness, mm", skin["mean_thickness_mm"]),
+        ("largest thickness, mm", high),
+        ("largest stress, MPa", max(report["skin_stress_mpa"])),
+    ]
+    if "skin stress" in report["uses"]:
+        rows.append(("skin stress, % of its limit", 100.0 * report["uses"]["skin stress"]))
+    held = skin["there_over_asked"]
+    rows.append(("thickness there, % of what was asked", f"{held['5%']:.1%} - {held['95%']:.1%}"))
+    return rows
 
 
 def _mass(volume: float, density: float) -> float:
@@ -271,7 +333,7 @@ def size_lattice(
     scatter: float = 0.0,
     **numbers: float,
 ) -> Outcome:
-    """Size an infill's struts and store the radii; ``doc.recompute()`` then makes the mesh.
+    """Size an infill and store what was found; ``doc.recompute()`` then makes the mesh.
 
     Args:
         obj: a lattice infill.
@@ -284,7 +346,8 @@ def size_lattice(
             infill's BuildDirection.
         scatter: stress and buckling are of struts thinner by so many standard deviations of it.
         **numbers: by the names of `volfrep.jobs.sizing.GOALS`, in place of those that the panel
-            begins with: such as ``safety=2``, ``max_displacement=0.1``, ``thinnest=0.4``.
+            begins with: such as ``safety=2``, ``max_displacement=0.1``, ``thinnest=0.4``, or
+            ``skin_thinnest=0.8``, with which the skin is sized, too.
 
     Raises:
         VolfrepError: there is no goal of such a name, or as `size_struts`.
@@ -299,9 +362,11 @@ def size_lattice(
 
 
 def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
-    """Give an infill the radii that were found, and what is to be known of them."""
+    """Give an infill the radii and the skin that were found, and what is to be known of them."""
     store_radii(obj, outcome.part.points, outcome.part.radii)
     spec = outcome.part.spec
+    if "skin" in outcome.part.report:
+        store_skin(obj, spec.shell, spec.skin_field)
     shortest = held_value(spec, BY_NAME["network_shortest"])
     if shortest:  # other radii would draw other struts together
         obj.NetworkShortest = shortest
@@ -440,6 +505,8 @@ def _wanted(goal: str, numbers: Mapping[str, float], material: SolidMaterial) ->
 
     idle = {name for kind, names in ONLY_OF.items() if kind != goal for name in names}
     asked = {name: value for name, value in numbers.items() if value and name not in idle}
+    if "strut_mass" in asked and "skin_thinnest" in asked:
+        asked["sized_mass"] = asked.pop("strut_mass")
     wanted = goal_of(material, asked)
     if goal == "mass" and not wanted.limits.any:
         raise VolfrepError(

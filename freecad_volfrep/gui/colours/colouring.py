@@ -30,6 +30,7 @@ QUANTITY_NAMES = marked(
     "VolfrepColours",
     "None",
     "Radius",
+    "Skin",
     "Cell size",
     "Overhang",
     "Stress",
@@ -41,6 +42,7 @@ QUANTITY_NAMES = marked(
 TITLES = marked(
     "VolfrepColours",
     "Strut radius, mm",
+    "Skin thickness, mm",
     "Cell size, mm",
     "Overhang, degrees",
     "Stress (von Mises), MPa",
@@ -59,9 +61,15 @@ def add_properties(view: Any) -> None:
     """Give a view what it says of its colours."""
     from volfrep.jobs.figures.point_values import QUANTITIES
 
-    if not hasattr(view, "ColourBy"):
+    known = [NOTHING, *QUANTITIES]
+    if hasattr(view, "ColourBy"):
+        if view.getEnumerationsOfProperty("ColourBy") != known:  # of an earlier release
+            chosen = view.ColourBy
+            view.ColourBy = known
+            view.ColourBy = chosen
+    else:
         view.addProperty("App::PropertyEnumeration", "ColourBy", "Object Style", BY)
-        view.ColourBy = [NOTHING, *QUANTITIES]
+        view.ColourBy = known
         view.addProperty("App::PropertyFloat", "ColourFrom", "Object Style", FROM)
         view.addProperty("App::PropertyFloat", "ColourTo", "Object Style", TO)
 
@@ -149,13 +157,13 @@ class Colouring:
     def _kinds(self) -> tuple[int, ...]:
         """The kinds of triangles that have the quantity: all hang over, only struts have a radius.
 
-        A skin that is seen through stays so.
+        A skin that is seen through stays so, but where its own thickness is shown.
         """
         from volfrep.reports.facet_roles import LATTICE, OUTSIDE, WALL
 
         view = self._obj.ViewObject
         if view.ColourBy != "Overhang":
-            return (LATTICE,)
+            return (OUTSIDE,) if view.ColourBy == "Skin" else (LATTICE,)
         return (WALL, LATTICE) if view.Transparency else (OUTSIDE, WALL, LATTICE)
 
     @property

@@ -98,7 +98,8 @@ FIELDS = (
         "",
         QT_TRANSLATE_NOOP(
             "VolfrepSizePanel",
-            "What the stiffest struts weigh together; 0 for what struts of StrutRadius do",
+            "What the stiffest struts weigh, with a skin that is sized; 0 for what those of "
+            "StrutRadius and the present skin do",
         ),
     ),
     (
@@ -113,6 +114,24 @@ FIELDS = (
         "mm",
         QT_TRANSLATE_NOOP(
             "VolfrepSizePanel", "Nodes whose struts would grow together stay below it"
+        ),
+    ),
+    (
+        "skin_thinnest",
+        QT_TRANSLATE_NOOP("VolfrepSizePanel", "Thinnest skin"),
+        "mm",
+        QT_TRANSLATE_NOOP(
+            "VolfrepSizePanel",
+            "Size the skin, too, from this thickness on; 0 leaves it as it is",
+        ),
+    ),
+    (
+        "skin_thickest",
+        QT_TRANSLATE_NOOP("VolfrepSizePanel", "Thickest skin"),
+        "mm",
+        QT_TRANSLATE_NOOP(
+            "VolfrepSizePanel",
+            "Where more is needed the part becomes solid; 0 for half the cell size",
         ),
     ),
 )

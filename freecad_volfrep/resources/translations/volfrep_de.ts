@@ -405,6 +405,10 @@
       <translation>Datei</translation>
     </message>
     <message>
+      <source>File of points and thicknesses of the skin, which it follows below all other faces, nowhere thinner than the shell</source>
+      <translation>Datei mit Punkten und Dicken der Haut, denen sie unter allen anderen Flächen folgt, nirgends dünner als die Hautdicke</translation>
+    </message>
+    <message>
       <source>File of points and values: .csv, .txt, .vtu, .vtk</source>
       <translation>Datei mit Punkten und Werten: .csv, .txt, .vtu, .vtk</translation>
     </message>
@@ -1021,6 +1025,14 @@
       <translation>Flächen mit eigener Haut</translation>
     </message>
     <message>
+      <source>Skin Field</source>
+      <translation>Feld der Hautdicke</translation>
+    </message>
+    <message>
+      <source>Skin Follows Sizing</source>
+      <translation>Haut wie bemessen</translation>
+    </message>
+    <message>
       <source>Skin Thicknesses</source>
       <translation>Hautdicken</translation>
     </message>
@@ -1187,6 +1199,10 @@
     <message>
       <source>The radius varies along it</source>
       <translation>Entlang dieser Richtung ändert sich der Radius</translation>
+    </message>
+    <message>
+      <source>The skin has the thickness that Loads and Sizing has found, and nowhere less than ShellThickness</source>
+      <translation>Die Haut hat die Dicke, die Lasten und Auslegung gefunden hat, und nirgends weniger als ShellThickness</translation>
     </message>
     <message>
       <source>The solid that is printed</source>
@@ -2044,6 +2060,14 @@
     <message>
       <source>Share of the buckling load</source>
       <translation>Anteil der Knicklast</translation>
+    </message>
+    <message>
+      <source>Skin</source>
+      <translation>Haut</translation>
+    </message>
+    <message>
+      <source>Skin thickness, mm</source>
+      <translation>Hautdicke, mm</translation>
     </message>
     <message>
       <source>Stress</source>
@@ -3253,6 +3277,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Gitter</translation>
     </message>
     <message>
+      <source>Mass</source>
+      <translation>Masse</translation>
+    </message>
+    <message>
       <source>Notes</source>
       <translation>Anmerkungen</translation>
     </message>
@@ -3283,6 +3311,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Seconds by stage</source>
       <translation>Sekunden je Schritt</translation>
+    </message>
+    <message>
+      <source>Skin</source>
+      <translation>Haut</translation>
     </message>
     <message>
       <source>Steps</source>
@@ -3469,6 +3501,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>größte Spannung, MPa</translation>
     </message>
     <message>
+      <source>largest thickness, mm</source>
+      <translation>größte Dicke, mm</translation>
+    </message>
+    <message>
       <source>lattice</source>
       <translation>Gitter</translation>
     </message>
@@ -3497,6 +3533,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>mannigfaltig</translation>
     </message>
     <message>
+      <source>mass of the skin, g</source>
+      <translation>Masse der Haut, g</translation>
+    </message>
+    <message>
       <source>mass of the struts, g</source>
       <translation>Masse der Streben, g</translation>
     </message>
@@ -3507,6 +3547,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>mean radius ratio</source>
       <translation>mittleres Radienverhältnis</translation>
+    </message>
+    <message>
+      <source>mean thickness, mm</source>
+      <translation>mittlere Dicke, mm</translation>
     </message>
     <message>
       <source>most</source>
@@ -3531,6 +3575,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>none</source>
       <translation>keine</translation>
+    </message>
+    <message>
+      <source>of that solid, g</source>
+      <translation>davon massiv, g</translation>
     </message>
     <message>
       <source>one radius, as near as it gets</source>
@@ -3585,6 +3633,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>dimensioniert</translation>
     </message>
     <message>
+      <source>skin stress, % of its limit</source>
+      <translation>Spannung der Haut, % der Grenze</translation>
+    </message>
+    <message>
       <source>skin, mm</source>
       <translation>Haut, mm</translation>
     </message>
@@ -3603,6 +3655,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>smallest radius, mm</source>
       <translation>kleinster Radius, mm</translation>
+    </message>
+    <message>
+      <source>smallest thickness, mm</source>
+      <translation>kleinste Dicke, mm</translation>
     </message>
     <message>
       <source>status</source>
@@ -3647,6 +3703,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>struts removed, free end</source>
       <translation>entfernte Streben, freies Ende</translation>
+    </message>
+    <message>
+      <source>thickness there, % of what was asked</source>
+      <translation>Dicke im Teil, % der verlangten</translation>
     </message>
     <message>
       <source>thin struts removed</source>
@@ -3966,6 +4026,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Alle Werte gelten für Streben wie gedruckt ({table}), {thin:.3f} bis {thick:.3f} mm dick; gezeichnet sind {least:.3f} bis {most:.3f} mm, {mass:.4g} g.</translation>
     </message>
     <message>
+      <source>All limits are held.</source>
+      <translation>Alle Grenzen sind eingehalten.</translation>
+    </message>
+    <message>
+      <source>All limits are held; one radius and one thickness for all would weigh {even:.4g} g.</source>
+      <translation>Alle Grenzen sind eingehalten; mit einem Radius und einer Dicke für alles wären es {even:.4g} g.</translation>
+    </message>
+    <message>
       <source>Analyses of the FEM workbench: each is a load case</source>
       <translation>Analysen des FEM-Arbeitsbereichs: jede ist ein Lastfall</translation>
     </message>
@@ -4066,12 +4134,20 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Knoten, deren Streben zusammenwachsen würden, bleiben darunter</translation>
     </message>
     <message>
+      <source>Of the skin {solid:.4g} g are solid from side to side.</source>
+      <translation>Von der Haut sind {solid:.4g} g massiv von Seite zu Seite.</translation>
+    </message>
+    <message>
       <source>Plot</source>
       <translation>Diagramm</translation>
     </message>
     <message>
       <source>Remove struts that carry little</source>
       <translation>Wenig tragende Streben weg</translation>
+    </message>
+    <message>
+      <source>Size the skin, too, from this thickness on; 0 leaves it as it is</source>
+      <translation>Auch die Haut bemessen, ab dieser Dicke; 0 lässt sie, wie sie ist</translation>
     </message>
     <message>
       <source>Smallest radius</source>
@@ -4110,6 +4186,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Streben von {mass:.4g} g, {least:.3g}- bis {gain:.3g}-mal so steif wie Streben eines einheitlichen Radius mit derselben Masse.</translation>
     </message>
     <message>
+      <source>Struts of {struts:.4g} g and a skin of {low:.3g} to {high:.3g} mm, {skin:.4g} g.</source>
+      <translation>Streben von {struts:.4g} g und eine Haut von {low:.3g} bis {high:.3g} mm, {skin:.4g} g.</translation>
+    </message>
+    <message>
       <source>Take away struts that end as thin as the smallest radius and size the rest again; kept if that is lighter, or stiffer at the same mass</source>
       <translation>Streben wegnehmen, die so dünn wie der kleinste Radius enden, und den Rest neu auslegen; behalten, wenn das leichter ist, oder steifer bei gleicher Masse</translation>
     </message>
@@ -4130,8 +4210,20 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Die dünnste Strebe, die das Verfahren druckt</translation>
     </message>
     <message>
-      <source>What the stiffest struts weigh together; 0 for what struts of StrutRadius do</source>
-      <translation>Was die steifsten Streben zusammen wiegen; 0 für das, was Streben mit StrutRadius wiegen</translation>
+      <source>Thickest skin</source>
+      <translation>Dickste Haut</translation>
+    </message>
+    <message>
+      <source>Thinnest skin</source>
+      <translation>Dünnste Haut</translation>
+    </message>
+    <message>
+      <source>What the stiffest struts weigh, with a skin that is sized; 0 for what those of StrutRadius and the present skin do</source>
+      <translation>Was die steifsten Streben wiegen, mit einer Haut, die bemessen wird; 0 für das, was die von StrutRadius und die jetzige Haut wiegen</translation>
+    </message>
+    <message>
+      <source>Where more is needed the part becomes solid; 0 for half the cell size</source>
+      <translation>Wo mehr nötig ist, wird das Teil massiv; 0 für die halbe Zellgröße</translation>
     </message>
     <message>
       <source>Work, N mm</source>
@@ -4160,6 +4252,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>frequency</source>
       <translation>Frequenz</translation>
+    </message>
+    <message>
+      <source>skin stress</source>
+      <translation>Spannung der Haut</translation>
     </message>
     <message>
       <source>stress</source>

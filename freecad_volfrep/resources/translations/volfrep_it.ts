@@ -405,6 +405,10 @@
       <translation>File</translation>
     </message>
     <message>
+      <source>File of points and thicknesses of the skin, which it follows below all other faces, nowhere thinner than the shell</source>
+      <translation>File di punti e spessori del guscio, che esso segue sotto tutte le altre facce, mai più sottile dello spessore del guscio</translation>
+    </message>
+    <message>
       <source>File of points and values: .csv, .txt, .vtu, .vtk</source>
       <translation>File di punti e valori: .csv, .txt, .vtu, .vtk</translation>
     </message>
@@ -1021,6 +1025,14 @@
       <translation>Facce con guscio proprio</translation>
     </message>
     <message>
+      <source>Skin Field</source>
+      <translation>Campo dello spessore del guscio</translation>
+    </message>
+    <message>
+      <source>Skin Follows Sizing</source>
+      <translation>Guscio come dimensionato</translation>
+    </message>
+    <message>
       <source>Skin Thicknesses</source>
       <translation>Spessori del guscio</translation>
     </message>
@@ -1187,6 +1199,10 @@
     <message>
       <source>The radius varies along it</source>
       <translation>Il raggio varia lungo di essa</translation>
+    </message>
+    <message>
+      <source>The skin has the thickness that Loads and Sizing has found, and nowhere less than ShellThickness</source>
+      <translation>Il guscio ha lo spessore trovato da Carichi e dimensionamento, e mai meno di ShellThickness</translation>
     </message>
     <message>
       <source>The solid that is printed</source>
@@ -2044,6 +2060,14 @@
     <message>
       <source>Share of the buckling load</source>
       <translation>Quota del carico critico</translation>
+    </message>
+    <message>
+      <source>Skin</source>
+      <translation>Guscio</translation>
+    </message>
+    <message>
+      <source>Skin thickness, mm</source>
+      <translation>Spessore del guscio, mm</translation>
     </message>
     <message>
       <source>Stress</source>
@@ -3253,6 +3277,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Reticolo</translation>
     </message>
     <message>
+      <source>Mass</source>
+      <translation>Massa</translation>
+    </message>
+    <message>
       <source>Notes</source>
       <translation>Note</translation>
     </message>
@@ -3283,6 +3311,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Seconds by stage</source>
       <translation>Secondi per fase</translation>
+    </message>
+    <message>
+      <source>Skin</source>
+      <translation>Guscio</translation>
     </message>
     <message>
       <source>Steps</source>
@@ -3469,6 +3501,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>tensione massima, MPa</translation>
     </message>
     <message>
+      <source>largest thickness, mm</source>
+      <translation>spessore massimo, mm</translation>
+    </message>
+    <message>
       <source>lattice</source>
       <translation>reticolo</translation>
     </message>
@@ -3497,6 +3533,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>manifold</translation>
     </message>
     <message>
+      <source>mass of the skin, g</source>
+      <translation>massa del guscio, g</translation>
+    </message>
+    <message>
       <source>mass of the struts, g</source>
       <translation>massa delle aste, g</translation>
     </message>
@@ -3507,6 +3547,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>mean radius ratio</source>
       <translation>rapporto medio dei raggi</translation>
+    </message>
+    <message>
+      <source>mean thickness, mm</source>
+      <translation>spessore medio, mm</translation>
     </message>
     <message>
       <source>most</source>
@@ -3531,6 +3575,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>none</source>
       <translation>nessuno</translation>
+    </message>
+    <message>
+      <source>of that solid, g</source>
+      <translation>di cui pieno, g</translation>
     </message>
     <message>
       <source>one radius, as near as it gets</source>
@@ -3585,6 +3633,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>dimensionato</translation>
     </message>
     <message>
+      <source>skin stress, % of its limit</source>
+      <translation>tensione del guscio, % del limite</translation>
+    </message>
+    <message>
       <source>skin, mm</source>
       <translation>guscio, mm</translation>
     </message>
@@ -3603,6 +3655,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>smallest radius, mm</source>
       <translation>raggio minimo, mm</translation>
+    </message>
+    <message>
+      <source>smallest thickness, mm</source>
+      <translation>spessore minimo, mm</translation>
     </message>
     <message>
       <source>status</source>
@@ -3647,6 +3703,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>struts removed, free end</source>
       <translation>aste rimosse, estremità libera</translation>
+    </message>
+    <message>
+      <source>thickness there, % of what was asked</source>
+      <translation>spessore nel pezzo, % di quello richiesto</translation>
     </message>
     <message>
       <source>thin struts removed</source>
@@ -3966,6 +4026,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Tutti i valori sono di aste come stampate ({table}), spesse da {thin:.3f} a {thick:.3f} mm; disegnate sono da {least:.3f} a {most:.3f} mm, {mass:.4g} g.</translation>
     </message>
     <message>
+      <source>All limits are held.</source>
+      <translation>Tutti i limiti sono rispettati.</translation>
+    </message>
+    <message>
+      <source>All limits are held; one radius and one thickness for all would weigh {even:.4g} g.</source>
+      <translation>Tutti i limiti sono rispettati; con un solo raggio e un solo spessore sarebbero {even:.4g} g.</translation>
+    </message>
+    <message>
       <source>Analyses of the FEM workbench: each is a load case</source>
       <translation>Analisi dell'ambiente FEM: ognuna è un caso di carico</translation>
     </message>
@@ -4066,12 +4134,20 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>I nodi le cui aste si fonderebbero restano al di sotto</translation>
     </message>
     <message>
+      <source>Of the skin {solid:.4g} g are solid from side to side.</source>
+      <translation>Del guscio {solid:.4g} g sono pieni da un lato all'altro.</translation>
+    </message>
+    <message>
       <source>Plot</source>
       <translation>Grafico</translation>
     </message>
     <message>
       <source>Remove struts that carry little</source>
       <translation>Togli aste che portano poco</translation>
+    </message>
+    <message>
+      <source>Size the skin, too, from this thickness on; 0 leaves it as it is</source>
+      <translation>Dimensionare anche il guscio, da questo spessore in su; 0 lo lascia com'è</translation>
     </message>
     <message>
       <source>Smallest radius</source>
@@ -4110,6 +4186,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Aste di {mass:.4g} g, da {least:.3g} a {gain:.3g} volte più rigide di aste di raggio unico e della stessa massa.</translation>
     </message>
     <message>
+      <source>Struts of {struts:.4g} g and a skin of {low:.3g} to {high:.3g} mm, {skin:.4g} g.</source>
+      <translation>Aste di {struts:.4g} g e un guscio da {low:.3g} a {high:.3g} mm, {skin:.4g} g.</translation>
+    </message>
+    <message>
       <source>Take away struts that end as thin as the smallest radius and size the rest again; kept if that is lighter, or stiffer at the same mass</source>
       <translation>Toglie le aste che finiscono sottili come il raggio minimo e dimensiona di nuovo le altre; si tiene se è più leggero, o più rigido a parità di massa</translation>
     </message>
@@ -4130,8 +4210,20 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>L'asta più sottile che il processo stampa</translation>
     </message>
     <message>
-      <source>What the stiffest struts weigh together; 0 for what struts of StrutRadius do</source>
-      <translation>Quanto pesano insieme le aste più rigide; 0 per il peso delle aste di StrutRadius</translation>
+      <source>Thickest skin</source>
+      <translation>Guscio massimo</translation>
+    </message>
+    <message>
+      <source>Thinnest skin</source>
+      <translation>Guscio minimo</translation>
+    </message>
+    <message>
+      <source>What the stiffest struts weigh, with a skin that is sized; 0 for what those of StrutRadius and the present skin do</source>
+      <translation>Quanto pesano le aste più rigide, con un guscio che viene dimensionato; 0 per quanto pesano quelle di StrutRadius e il guscio attuale</translation>
+    </message>
+    <message>
+      <source>Where more is needed the part becomes solid; 0 for half the cell size</source>
+      <translation>Dove serve di più il pezzo diventa pieno; 0 per metà della cella</translation>
     </message>
     <message>
       <source>Work, N mm</source>
@@ -4160,6 +4252,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>frequency</source>
       <translation>frequenza</translation>
+    </message>
+    <message>
+      <source>skin stress</source>
+      <translation>tensione del guscio</translation>
     </message>
     <message>
       <source>stress</source>

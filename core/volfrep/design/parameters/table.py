@@ -314,7 +314,7 @@ PARAMETERS = (
         "skin_field", "file", "Openings",
         "File of points and thicknesses of the skin, which it follows below all other faces, "
         "nowhere thinner than the shell",
-        in_freecad=False, of_block=False, field="skin_field",
+        of_block=False, field="skin_field",
     ),
     Parameter(
         "keep_solid_around", "faces", "Openings",

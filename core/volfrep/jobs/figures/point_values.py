@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 #: What there is, and what it is called.
 QUANTITIES = {
     "Radius": "Strut radius, mm",
+    "Skin": "Skin thickness, mm",
     "Cell size": "Cell size, mm",
     "Overhang": "Overhang, degrees",
     "Stress": "Stress (von Mises), MPa",
@@ -97,6 +98,8 @@ def point_values(
         )
     if quantity == "Overhang":
         return PointValues(overhang(normals, up).astype(np.float32), 0.0, 90.0)
+    if quantity == "Skin":
+        return _in_range(_skin(solid, spec, points))
     if quantity in ("Cell size", "Field"):
         return _in_range(values_in_space(solid, spec, quantity, points))
     if not spec.kind.has_struts:
@@ -168,6 +171,17 @@ def values_in_space(
     sides = np.moveaxis(slopes, 2, 0)
     volume = np.abs((sides[0] * np.cross(sides[1], sides[2])).sum(axis=1))
     return np.asarray(spec.cell_size * np.cbrt(volume))
+
+
+def _skin(solid: TriangleMesh, spec: LatticeSpec, points: Floats) -> Floats:
+    """(n,) mm, the thickness of the skin below (n, 3) points of the part's surface."""
+    from ..sizing.part_model import thickness_of_skin
+
+    if not spec.with_skin:
+        raise VolfrepError("The part has no skin to colour: give it a skin thickness.")
+    thickness = thickness_of_skin(solid, spec)
+    places = np.asarray(points, np.float64)
+    return thickness(places) if callable(thickness) else np.full(len(places), thickness)
 
 
 def overhang(normals: Floats, up: tuple[float, float, float]) -> Floats:

@@ -459,6 +459,8 @@ def _record(
             ),
         }  # fmt: skip
         report["notes"] += filled_notes(report["skin"]["solid"], task.skin.thickest)
+        solid = sum(place["mass_g"] for place in report["skin"]["solid"])
+        report["masses_g"]["solid"] = solid
     return SizedPart(graded, points, radii, search.model, search.sized, before, search.even, report)
 
 

@@ -121,6 +121,48 @@ def in_pieces(drawn: Shaded, most: int = PIECE) -> Pieces:
     return Pieces(drawn.points[rows], drawn.normals[rows], index, np.array(ends, np.int64), firsts)
 
 
+def finer(pieces: Pieces, longest: float) -> Pieces:
+    """The same surface in triangles without longer sides, so that colours follow values within it.
+
+    Triangles are halved across their longest side, again and again, up to `AT_ONCE` of them.
+
+    Args:
+        pieces: to be drawn.
+        longest: side, mm.
+    """
+    points, normals, counts = [], [], []
+    total = len(pieces.index)
+    for own_points, own_normals, index in pieces:
+        corners = np.concatenate([own_points, own_normals], axis=1)[index[:, :3]]
+        while total < AT_ONCE:
+            sides = np.linalg.norm((np.roll(corners, -1, axis=1) - corners)[..., :3], axis=2)
+            over = sides.max(axis=1) > longest
+            if not over.any():
+                break
+            turned = (sides[over].argmax(axis=1)[:, None] + np.arange(3)) % 3
+            one, two, three = np.take_along_axis(corners[over], turned[:, :, None], 1).swapaxes(
+                0, 1
+            )
+            middle = 0.5 * (one + two)
+            halves = [
+                np.stack(half, axis=1) for half in ((one, middle, three), (middle, two, three))
+            ]
+            corners = np.concatenate([corners[~over], *halves])
+            total += int(over.sum())
+        points.append(corners.reshape(-1, 6)[:, :3])
+        turns = corners.reshape(-1, 6)[:, 3:]
+        normals.append(turns / np.maximum(np.linalg.norm(turns, axis=1), 1e-30)[:, None])
+        counts.append(len(corners))
+    first = np.append(0, np.cumsum(counts)).astype(np.int64)
+    index = np.full((first[-1], 4), -1, np.int32)
+    for low, high in itertools.pairwise(first):
+        index[low:high, :3] = np.arange(3 * (high - low)).reshape(-1, 3)
+    return Pieces(
+        np.concatenate(points).astype(np.float32), np.concatenate(normals).astype(np.float32),
+        index, 3 * first, first,
+    )  # fmt: skip
+
+
 def facets_with_neighbours(mesh: TriangleMesh) -> NDArray[np.uint32]:
     """(t, 6) the corners of each triangle, and the triangles across its sides, or `NOTHING`.
 

@@ -50,6 +50,8 @@ TITLES = marked(
     "Displacement, mm",
     "Field of the radius",
 )
+#: Triangles that show the skin's thickness have no longer sides than this part of the part's size.
+SKIN_SIDES = 80.0
 BY = QT_TRANSLATE_NOOP("App::Property", "What the lattice is coloured by")
 FROM = QT_TRANSLATE_NOOP(
     "App::Property", "Where the scale of colours begins; as its end: from the values themselves"
@@ -202,6 +204,8 @@ class Colouring:
             tell_error(self.why)
             return
         kinds = self._kinds()
+        if quantity == "Skin":  # flat faces have corners only
+            part.refine(kinds, float(np.linalg.norm(np.ptp(solid.bounds, axis=0))) / SKIN_SIDES)
         arrays = part.points(kinds), part.normals(kinds)
 
         def then(found: PointValues | None, error: BaseException | None) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -85,6 +86,18 @@ class FilledPart:
     def normals(self, kinds: Sequence[int]) -> NDArray[np.float32]:
         """(n, 3) the normals there."""
         return _joined([self._parts[k].pieces.normals for k in kinds if k in self._parts])
+
+    def refine(self, kinds: Sequence[int], longest: float) -> None:
+        """Draw these kinds in triangles without longer sides, mm, from now on."""
+        from volfrep.mesh.display_parts import finer
+
+        for kind in [kind for kind in kinds if kind in self._parts]:
+            self._parts[kind] = replace(
+                self._parts[kind], pieces=finer(self._parts[kind].pieces, longest)
+            )
+            self._shapes[kind].removeAllChildren()
+            for arrays in self._parts[kind].pieces:
+                self._shapes[kind].addChild(drawing.piece(*arrays))
 
     def uncolour(self) -> None:
         """Take the colours of points away again."""

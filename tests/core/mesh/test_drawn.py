@@ -11,6 +11,7 @@ from volfrep.mesh.display_parts import (
     NOTHING,
     drawn_parts,
     facets_with_neighbours,
+    finer,
     in_pieces,
 )
 from volfrep.mesh.shading import shade
@@ -64,3 +65,20 @@ def test_neighbours_are_those_that_trimesh_finds():
 def test_at_an_open_side_there_is_nothing():
     one = TriangleMesh(np.eye(3), np.array([[0, 1, 2]], np.int32))
     assert facets_with_neighbours(one).tolist() == [[0, 1, 2, NOTHING, NOTHING, NOTHING]]
+
+
+def test_finer_pieces_are_the_same_surface_without_long_sides():
+    solid = samples.box((30.0, 20.0, 10.0))
+    pieces = finer(in_pieces(shade(solid), 5), 2.0)
+    corners = np.concatenate([points[index[:, :3]] for points, _, index in pieces])
+    turns = np.concatenate([normals[index[:, :3]] for _, normals, index in pieces])
+    sides = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
+    assert sides.max() <= 2.0
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert 0.5 * np.linalg.norm(across, axis=1).sum() == pytest.approx(solid.area, rel=1e-5)
+    middles = corners.mean(axis=1)
+    assert (np.einsum("ti,ti->t", middles, across) / 6.0).sum() == pytest.approx(
+        solid.volume, rel=1e-5
+    )
+    flat = across / np.linalg.norm(across, axis=1)[:, None]
+    assert np.einsum("ti,tci->tc", flat, turns).min() > 0.999

@@ -136,6 +136,8 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         text = ", ".join(f"{radius:g} mm ({nodes:,} nodes)" for radius, nodes in pairs)
         cost = listed["volume_over_any_radii"] - 1.0
         rows.append(("radius list", f"{text}; {cost:+.1%} of the mass with any radii"))
+    if "governed_by" in report:
+        rows.append(("governed by", _governed(report["governed_by"])))
     proof = report["calculix"]
     there = (proof or {}).get("uses", {})
     for name, use in report["uses"].items():
@@ -225,6 +227,14 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     if "file" in report:
         rows += _file_rows(report["file"])
     return rows
+
+
+def _governed(rows: list[dict[str, Any]]) -> str:
+    """Which limit, in which case, says how thick how many struts are."""
+    return ", ".join(
+        f"{row['what']}{' in ' * bool(row['case'])}{row['case']} ({row['struts']:,} struts)"
+        for row in rows
+    )
 
 
 def _solid(places: list[dict[str, Any]]) -> str:

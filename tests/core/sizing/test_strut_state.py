@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The state of struts under each load case."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from volfrep.fem.model import Case
 from volfrep.grid.strut_graph import Graph
+from volfrep.jobs.sizing.governing import governing
 from volfrep.sizing.analysis import Limits, Problem, analyse
 from volfrep.sizing.node_radii import NodeRadii, whole_struts
 from volfrep.sizing.structure import Structure
@@ -17,9 +20,8 @@ YOUNG, LENGTH, RADIUS = 2000.0, 100.0, 2.0
 AREA, INERTIA = np.pi * RADIUS**2, 0.25 * np.pi * RADIUS**4
 
 
-@pytest.fixture(scope="module")
-def states():
-    """A rod of two struts along x, held at one end: pushed, then bent."""
+def rod():
+    """Two struts along x, held at one end: pushed, then bent."""
     nodes = np.array([[0, 0, 0], [0.5 * LENGTH, 0, 0], [LENGTH, 0, 0]])
     struts = np.array([[0, 1], [1, 2]])
     held = np.zeros((3, 6), bool)
@@ -33,7 +35,13 @@ def states():
     filled = union_volume(Graph(nodes, struts), LENGTH, low, 100 * low)
     radii = NodeRadii(whole_struts(struts, 3), filled)
     structure = Structure(nodes, beams_of(nodes, struts, Elastic(YOUNG)))
-    problem = Problem(structure, cases, radii, low, 100 * low, np.ones(3, bool))
+    return Problem(structure, cases, radii, low, 100 * low, np.ones(3, bool))
+
+
+@pytest.fixture(scope="module")
+def states():
+    """Of the rod in both cases."""
+    problem = rod()
     return strut_states(problem, analyse(problem, np.full(3, RADIUS), Limits())[0])
 
 
@@ -50,6 +58,26 @@ def test_a_rod_says_what_the_closed_forms_say(states):
     assert (bend.buckling[:, 0] == bend.buckling[:, 1]).all()
     assert push.buckling.min() > 0
     assert bend.buckling.max() < 1e-9
+
+
+def test_what_governs_the_struts_of_the_rod():
+    problem, radii = rod(), np.full(3, RADIUS)
+    bent = 6.0 * LENGTH * RADIUS / INERTIA  # at the held end; half of it in the middle
+
+    def found(problem=problem, **limits):
+        limits = Limits(**limits)
+        governed = governing(problem, analyse(problem, radii, limits)[0], limits)
+        return [governed.names[k] for k in governed.struts]
+
+    # The second strut has half the stress, and shares its thicker end with the first.
+    assert found(stress=bent) == [("stress", "bend")] * 2
+    assert found(stress=1.2 * bent) == [("no limit", "")] * 2
+    moved = 6.0 * LENGTH**3 / (3.0 * YOUNG * INERTIA)
+    assert found(stress=2.0 * bent, displacement=1.005 * moved)[1] == ("displacement", "bend")
+    # Ends that are as thin as they may be.
+    thin = replace(problem, low=np.array([0.1, RADIUS, RADIUS]))
+    assert found(thin, stress=bent) == [("stress", "bend"), ("smallest radius", "")]
+    assert found() == [("stiffness", "")] * 2
 
 
 def test_all_cases_have_one_scale_and_one_enlargement(states):

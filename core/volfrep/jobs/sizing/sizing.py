@@ -33,6 +33,7 @@ from ..infill import Infill
 from ..kinds import lattice_kind
 from ..targets import solve_target
 from .goal import Goal
+from .governing import governing
 from .notes import (
     free_motions,
     hardly_beams,
@@ -435,6 +436,8 @@ def _record(
         seconds=seconds, notes=tuple(task.notes),
         unthinned=None if taken is None else (search.whole.analysis, taken.struts),
     )  # fmt: skip
+    governed = governing(search.model.problem, search.sized.analysis, task.goal.limits)
+    report["governed_by"] = governed.as_rows()
     if taken is not None:
         report["removed"]["places"] = taken.places
     if search.any_radii is not None:

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What governs where: the limit and the load case that say how thick each strut is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...sizing.analysis import Analysis, Limits, Problem
+from ...util.types import Floats, Ints
+
+#: A strut is governed by a limit of its own from this share of it on; by one that all share where
+#: that is used to this.
+_NEAR, _SHARED = 0.9, 0.98
+#: A radius is at a bound within this factor.
+_BOUND = 1.0 + 1e-3
+#: A node is an end's own with more than this share in its radius.
+_OWN = 0.3
+THINNEST, THICKEST, STIFFNESS, NOTHING = (
+    "smallest radius", "largest radius", "stiffness", "no limit",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Governing:
+    """What says how thick struts are.
+
+    Attributes:
+        names: what there is: a limit, a bound, or `NOTHING`; and the load case, empty without one.
+        struts: (m,) of each strut, its row in `names`.
+    """
+
+    names: tuple[tuple[str, str], ...]
+    struts: Ints
+
+    def as_rows(self) -> list[dict[str, str | int]]:
+        """How many struts each of them governs, the most first; what governs none is left out."""
+        counts = np.bincount(self.struts, minlength=len(self.names))
+        order = np.argsort(-counts, kind="stable")
+        return [
+            {"what": self.names[k][0], "case": self.names[k][1], "struts": int(counts[k])}
+            for k in order.tolist()
+            if counts[k]
+        ]
+
+
+def governing(problem: Problem, design: Analysis, limits: Limits) -> Governing:
+    """What governs each strut of a design.
+
+    A strut's own limits, stress and buckling, do where it uses nine tenths of one; else those of
+    the most used strut that its thicker end is shared with. An end that is as thin as it may be is
+    governed by that, and every other one by the limit that all struts share, displacement,
+    frequency or buckling together, where that is used up.
+
+    Args:
+        problem: that was solved.
+        design: its solution.
+        limits: that it is held to; without any it is for stiffness.
+    """
+    cases = [case.name for case in problem.cases]
+    names: list[tuple[str, str]] = []
+    shares: list[Floats] = []
+    if limits.stress is not None:
+        names += [("stress", case) for case in cases]
+        shares.append(design.stress.max(axis=1) / limits.stress)
+    if limits.buckling is not None:
+        names += [("buckling", case) for case in cases]
+        shares.append(design.buckling * limits.buckling)
+    local = np.concatenate([np.zeros((len(design.stress), 0)), *shares], axis=1)
+    most = local.max(axis=1, initial=0.0)
+    own = local.argmax(axis=1) if local.shape[1] else np.zeros(len(most), np.int64)
+
+    first = len(names)
+    names += [(THINNEST, ""), (THICKEST, ""), _shared(design, limits, cases)]
+    radii, nodes = design.radii, len(design.radii)
+    entries = problem.radii.ends.tocoo()
+    part = entries.data > _OWN
+    row, column = entries.row[part], entries.col[part]
+    order = np.argsort(most[row // 2], kind="stable")
+    busiest = np.zeros(nodes, np.int64)
+    busiest[column[order]] = row[order] // 2  # the last one stays
+    of_node = np.full(nodes, first + 2)
+    near = most[busiest] >= _NEAR
+    of_node[near] = own[busiest[near]]
+    of_node[radii <= problem.low * _BOUND] = first
+    of_node[radii * _BOUND >= problem.high] = first + 1
+    thick = problem.radii.of_struts(design.radii).argmax(axis=1)
+    ends = problem.radii.ends.tocsr()[2 * np.arange(len(thick)) + thick]
+    node = np.asarray(ends.argmax(axis=1)).ravel()
+    return Governing(tuple(names), np.where(most >= _NEAR, own, of_node[node]))
+
+
+def _shared(design: Analysis, limits: Limits, cases: list[str]) -> tuple[str, str]:
+    """The limit that all struts share and that is used most, with its case, where it is used up."""
+    if not limits.any:
+        return STIFFNESS, ""
+    shared = {
+        name: use
+        for name, use in design.uses.items()
+        if name in ("displacement", "frequency", "frame buckling") and use >= _SHARED
+    }
+    if not shared:
+        return NOTHING, ""
+    name = max(shared, key=lambda one: shared[one])
+    case = design.worst[name][0]
+    return name, cases[case] if case >= 0 else ""

@@ -98,7 +98,7 @@ def test_a_graph_in_python_keeps_within_limits():
         mesh_network(graph, **wanted, max_triangles=100)
 
 
-@pytest.mark.costly
+@pytest.mark.slow
 def test_a_sized_part_in_python_keeps_within_limits():
     bar = samples.box((20.0, 10.0, 10.0))
     held, pulled = ({"point": [x, 0, 0], "normal": [1, 0, 0]} for x in (0, 20))

@@ -154,10 +154,16 @@ def test_orca_finds_an_object_of_components_with_the_settings_of_each(graded, tm
         assert said["sparse_infill_pattern"] == "gyroid"
         mesh = objects[part.get("id")].find(f"{_CORE}mesh")
         assert len(mesh.find(f"{_CORE}triangles")) == len(band.mesh.triangles)
+    # Its reader moves the first mesh by the item's transform, and none of the others.
+    moved = "1 0 0 0 1 0 0 0 1 {} {} 0"
+    assert model.find(f"{_CORE}build/{_CORE}item").get("transform") == moved.format(0, 0)
+    places = {c.get("transform") for c in objects[built].iter(f"{_CORE}component")}
+    assert places == {moved.format(98, 108)}
     of_object = {m.get("key"): m.get("value") for m in whole.findall("metadata")}
     assert of_object["wall_loops"] == "0"
     loaded = trimesh.load(path)
     assert len(loaded.geometry) == len(graded.bands)
+    assert loaded.bounds[0] == pytest.approx([98, 108, 0], abs=3)  # bands reach out of the box
 
 
 def test_the_command_writes_the_project_and_tells_the_filament(tmp_path: Path, capsys):

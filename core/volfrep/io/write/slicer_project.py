@@ -7,6 +7,9 @@ OrcaSlicer and Bambu Studio read an object of components, each a mesh, which
 ``Metadata/model_settings.config`` names (``Format/bbs_3mf.cpp``). Both take any of their settings
 for an object or a volume. One file cannot be both.
 
+Of another program's file the latter moves the first mesh only to where the item lies, so that the
+components say where they lie and the item does not.
+
 A file does not claim to be saved by either program, so that none takes the settings of its
 printer or filament from it.
 """
@@ -28,6 +31,7 @@ from ...design.banded_infill import BandedInfill
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
 from ...util.files import replacing
+from ...util.types import Floats
 from .numbered import Numbered, number_vertices
 from .threemf import CONTENT_TYPES, CORE, MODEL, RELATIONSHIPS, XML, mesh_text, package_entry
 
@@ -115,15 +119,15 @@ def write_project(
     own: list[dict[str, str]] = [{}] + [
         {keys.density: f"{share:.1f}%", keys.pattern: wanted.pattern} for share, _ in bands
     ]
+    low, high = solid.bounds
+    at = np.array([*keys.middle, 0.0]) - [*(low + high)[:2] / 2.0, low[2]]
     if slicer == "prusa":
         built, objects = 1, _one_mesh(name, meshes)
         config = _prusa_config(name, whole, titles, own, [mesh.triangles for mesh in meshes])
     else:
-        built, objects = len(meshes) + 1, _components(name, titles, meshes)
+        built, objects = len(meshes) + 1, _components(name, titles, meshes, _place(at))
+        at = np.zeros(3)
         config = _orca_config(name, whole, titles, own)
-    low, high = solid.bounds
-    at = np.array([*keys.middle, 0.0]) - [*(low + high)[:2] / 2.0, low[2]]
-    place = " ".join(f"{number:.9g}" for number in at + 0.0)
     head = (
         f'{XML}<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}" '
         f'xmlns:slic3rpe="{_PRUSA_SPACE}"><metadata name="Title">{escape(name)}</metadata>'
@@ -131,10 +135,7 @@ def write_project(
     )
     if slicer == "prusa":  # or the reader takes each instance for an object without modifiers
         head += '<metadata name="slic3rpe:Version3mf">1</metadata>'
-    tail = (
-        f'</resources><build><item objectid="{built}" transform="1 0 0 0 1 0 0 0 1 {place}"/>'
-        "</build></model>"
-    )
+    tail = f'</resources><build><item objectid="{built}" transform="{_place(at)}"/></build></model>'
     with replacing(path) as file, zipfile.ZipFile(file, "w") as package:
         package.writestr(package_entry("[Content_Types].xml"), CONTENT_TYPES)
         package.writestr(package_entry("_rels/.rels"), RELATIONSHIPS)
@@ -142,6 +143,11 @@ def write_project(
             for chunk in chain([f"{head}<resources>".encode()], objects, [tail.encode()]):
                 model.write(chunk)
         package.writestr(package_entry(keys.config), f"{XML}{config}")
+
+
+def _place(at: Floats) -> str:
+    """What 3MF calls a transform, that only moves."""
+    return " ".join(["1 0 0 0 1 0 0 0 1", *(f"{number:.9g}" for number in at + 0.0)])
 
 
 def _one_mesh(name: str, meshes: Sequence[Numbered]) -> Iterator[bytes]:
@@ -158,13 +164,17 @@ def _one_mesh(name: str, meshes: Sequence[Numbered]) -> Iterator[bytes]:
     yield b"</object>"
 
 
-def _components(name: str, titles: Sequence[str], meshes: Sequence[Numbered]) -> Iterator[bytes]:
+def _components(
+    name: str, titles: Sequence[str], meshes: Sequence[Numbered], place: str
+) -> Iterator[bytes]:
     """An object for each mesh, and one that is made of them."""
     for number, (title, mesh) in enumerate(zip(titles, meshes, strict=True), 1):
         yield f'<object id="{number}" type="model" name="{escape(title)}">'.encode()
         yield from mesh_text(mesh.decimals(), mesh.corners(), iter(()))
         yield b"</object>"
-    parts = "".join(f'<component objectid="{number + 1}"/>' for number in range(len(meshes)))
+    parts = "".join(
+        f'<component objectid="{number + 1}" transform="{place}"/>' for number in range(len(meshes))
+    )
     yield (
         f'<object id="{len(meshes) + 1}" type="model" name="{escape(name)}">'
         f"<components>{parts}</components></object>"

@@ -19,7 +19,7 @@ from ..util.errors import VolfrepError
 from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import threads
-from .topology import edge_uses, moved_vertices, touching
+from .topology import Each, edge_uses, moved_vertices, touching
 from .triangle_mesh import TriangleMesh
 
 T = TypeVar("T")
@@ -168,8 +168,13 @@ def subtract_shells(
     return Quality(watertight=True, genus=whole.genus - gone.genus, bounds=bounds, **rest)
 
 
-def inspect(mesh: TriangleMesh, monitor: Monitor | None = None) -> Inspection:
-    """As `measure`, with the shell of every triangle and every shell's volume."""
+def inspect(
+    mesh: TriangleMesh, monitor: Monitor | None = None, each: Each | None = None
+) -> Inspection:
+    """As `measure`, with the shell of every triangle and every shell's volume.
+
+    `each` is as of `edge_uses`.
+    """
     used = np.zeros(len(mesh.vertices), bool)
     used[mesh.triangles.ravel()] = True
     vertices = int(np.count_nonzero(used))
@@ -181,7 +186,7 @@ def inspect(mesh: TriangleMesh, monitor: Monitor | None = None) -> Inspection:
     points = columns if vertices == len(used) else columns[:, used]
     bounds = np.array([points.min(axis=1), points.max(axis=1)])
 
-    uses = _run(monitor, lambda: edge_uses(mesh))
+    uses = _run(monitor, lambda: edge_uses(mesh, each))
     volumes, area, degenerate, repeated = _run(
         monitor, lambda: _sizes(columns, bounds.mean(axis=0), mesh.triangles)
     )

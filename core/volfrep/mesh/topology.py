@@ -9,6 +9,7 @@ scipy's graphs are loaded when a large one is asked for: that takes as long as a
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
@@ -20,6 +21,9 @@ from ..util.ragged import rows_of
 from ..util.threads import in_threads, threads
 from ..util.types import Bools, Ints
 from .triangle_mesh import TriangleMesh
+
+#: Makes calls of a function with what it is given each time, in their order.
+Each = Callable[[Callable[..., Any], Iterable[tuple[Any, ...]]], Iterable[Any]]
 
 #: Triangles whose edges are counted at once: what that takes does not grow with the mesh then.
 BLOCK_TRIANGLES = 1 << 17
@@ -160,10 +164,15 @@ class EdgeUses:
     pieces: int
 
 
-def edge_uses(mesh: TriangleMesh) -> EdgeUses:
+def edge_uses(mesh: TriangleMesh, each: Each | None = None) -> EdgeUses:
     """How often edges are used, found of some triangles at a time.
 
     An edge is used in two blocks only if both its ends are: such edges are added up at the end.
+
+    Args:
+        mesh: any.
+        each: makes the calls of a function with what it is given each time, in their order, as in
+            other processes; None: threads do.
     """
     size, starts = np.int64(len(mesh.vertices)), range(0, len(mesh.triangles), BLOCK_TRIANGLES)
     blocks = [mesh.triangles[k : k + BLOCK_TRIANGLES] for k in starts]
@@ -173,7 +182,13 @@ def edge_uses(mesh: TriangleMesh) -> EdgeUses:
         before = last[corners]
         shared[corners[(before >= 0) & (before != number)]] = True
         last[corners] = number
-    found = list(in_threads(lambda block: _uses_in(block, shared), blocks))
+
+    def given() -> Iterator[tuple[NDArray[np.int32], Bools]]:
+        for block in blocks:
+            yield block, shared[int(block.min()) : int(block.max()) + 1]
+
+    each = each or (lambda function, blocks: in_threads(lambda one: function(*one), blocks))
+    found = list(each(_uses_in, given()))
     ends, uses = np.zeros((0, 2), np.int64), np.zeros((0, 2), np.int64)
     if found:
         ends = np.concatenate([block.ends for block in found])
@@ -206,20 +221,21 @@ class _Block:
 
 
 def _uses_in(triangles: NDArray[np.int32], shared: Bools) -> _Block:
-    """What is found of some triangles, of whose vertices others use the shared ones."""
+    """What is found of some triangles, of whose vertices, from the lowest on, some are shared."""
     from scipy.sparse.csgraph import connected_components
 
-    low, high = int(triangles.min()), int(triangles.max())
-    is_used = np.zeros(high - low + 1, bool)
+    low = int(triangles.min())
+    is_used = np.zeros(len(shared), bool)
     is_used[triangles - np.int32(low)] = True
     used = np.flatnonzero(is_used)
     number = np.cumsum(is_used, dtype=np.int32) - np.int32(1)
     corners = np.ascontiguousarray(number[triangles - np.int32(low)].T)
     vertices = (used + low).astype(np.int32)
     both = _counts(corners, len(used))
-    start = np.flatnonzero(shared[vertices])
+    is_shared = shared[used]
+    start = np.flatnonzero(is_shared)
     entry, row = rows_of(both.indptr, start)
-    elsewhere = shared[vertices[both.indices[entry]]]
+    elsewhere = is_shared[both.indices[entry]]
     entry, start = entry[elsewhere], start[row[elsewhere]]
     ends = vertices[np.stack([start, both.indices[entry]], axis=1)].astype(np.int64)
     # Most edges are used once each way, and need no further look.

@@ -7,15 +7,18 @@ Calls that hold Python's lock, such as those of the Boolean library, run side by
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from queue import SimpleQueue
-from typing import Any
+from typing import Any, TypeVar
 
 from ..util.errors import VolfrepError
-from ..util.threads import threads
+from ..util.threads import in_threads, threads
 from .worker import Call, Ending, Program, Worker, WorkerLost, this_python
+
+T = TypeVar("T")
 
 #: After so many have ended there is something wrong with all of them, and no other one is started.
 MOST_LOST = 8
@@ -122,6 +125,40 @@ def processes(
 def on_this_machine(executor: Executor | None) -> Executor | None:
     """An executor of processes of this machine, which see its files; None for any other."""
     return executor if isinstance(executor, WorkerPool) else None
+
+
+def each_of(
+    function: Callable[..., T], given: Iterable[tuple[Any, ...]], executor: Executor | None
+) -> Iterator[T]:
+    """What a function makes of each of what it is given, in their order.
+
+    Args:
+        function: of a module, of what pickles.
+        given: its arguments, each time.
+        executor: its processes on this machine are asked, a few calls ahead; None: threads of this
+            process. What a worker was lost with is made here.
+    """
+    executor = on_this_machine(executor)
+    if executor is None:
+        yield from in_threads(lambda each: function(*each), given)
+        return
+    waiting: deque[tuple[tuple[Any, ...], Future[T] | None]] = deque()
+
+    def first() -> T:
+        each, future = waiting.popleft()
+        if future is None or future.cancelled() or future.exception() is not None:
+            return function(*each)  # what is wrong with the call itself shows again
+        return future.result()
+
+    for each in given:
+        try:
+            waiting.append((each, executor.submit(function, *each)))
+        except RuntimeError:  # it takes nothing more, as when its processes were killed
+            waiting.append((each, None))
+        if len(waiting) > 2 * at_once(executor):
+            yield first()
+    while waiting:
+        yield first()
 
 
 def let_go(executor: Executor | None) -> None:

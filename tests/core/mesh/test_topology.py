@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 from collections import Counter
+from functools import partial
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from volfrep.mesh import topology
 from volfrep.mesh.quality import inspect
 from volfrep.mesh.topology import edge_uses
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.process.pool import WorkerPool, each_of, processes
 
 
 def torn(seed):
@@ -83,3 +85,22 @@ def test_pieces_are_the_same_with_scipys_graphs_and_without(count, pairs, monkey
     assert np.array_equal(piece, of_scipy)
     lowest = [np.flatnonzero(piece == k)[0] for k in range(few)]
     assert lowest == sorted(lowest), "numbered by their first things"
+
+
+@pytest.mark.costly
+def test_processes_count_the_edges_that_threads_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(topology, "BLOCK_TRIANGLES", 300)
+    mesh = samples.sphere(10.0, 3)
+    open_ = TriangleMesh(mesh.vertices, np.delete(mesh.triangles, [100, 700], axis=0))
+    here = edge_uses(open_)
+    assert here.open == 6
+    with processes(2) as executor:
+        assert isinstance(executor, WorkerPool)
+        there = edge_uses(open_, partial(each_of, executor=executor))
+        assert executor.workers, "they were asked"
+        for worker in executor.workers:
+            worker.kill()
+        lost = edge_uses(open_, partial(each_of, executor=executor))
+    for found in (there, lost, edge_uses(open_, partial(each_of, executor=executor))):
+        for name, value in vars(here).items():
+            np.testing.assert_array_equal(getattr(found, name), value, name)

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from ...mesh.precision import refuse_lost_corners, single_precision
 from ...mesh.triangle_mesh import TriangleMesh, compact
-from ...process.pool import on_this_machine
 from ...util.errors import VolfrepError
 from ...util.files import replacing, write_at
 from ...util.progress import POLL_SECONDS, Monitor
@@ -108,7 +107,10 @@ def write_facets(
         Cancelled: when the monitor says so; no file is left behind.
     """
     refuse_too_many(count, path)
-    executor = on_this_machine(executor)
+    if executor is not None:
+        from ...process.pool import on_this_machine  # of no use to blocks, and slow to import
+
+        executor = on_this_machine(executor)
     head = b"binary STL, mm".ljust(HEADER_BYTES, b" ") + np.array(count, "<u4").tobytes()
     with replacing(path, len(head) + FACET.itemsize * count) as file:
         file.write(head)

@@ -6,19 +6,27 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
     check,
     click_in_tree,
+    click_menu,
+    infills,
+    move_mouse,
     picture,
+    press_button,
     run_checks,
     select,
     settle,
     show_model,
+    slow,
+    start_by_click,
+    tree,
     tree_item,
     wait_until,
+    when_dialog,
     xdotool,
 )
 
@@ -103,6 +111,46 @@ def be_deleted(doc, box, infill):
     check("and alive", back.isValid(), back.getStatusString())
 
 
+@slow
+def be_copied_and_renamed(doc, box, infill):
+    """Copied with its solid and pasted it is another infill; F2 renames, and undo takes it back."""
+
+    def take_all(dialog):
+        buttons = dialog.findChildren(QtGui.QPushButton)
+        start_by_click(next(b for b in buttons if b.text().replace("&", "") == "OK"))
+
+    click_in_tree("Light")
+    when_dialog(QtGui.QDialog, take_all)  # FreeCAD asks whether the solid comes along
+    tree().setFocus()
+    xdotool("key", "ctrl+c")
+    wait_until(lambda: Gui.Command.get("Std_Paste").isActive())
+    settle()
+    click_menu("Edit", "Paste")
+    check("there are two and their solids", wait_until(lambda: len(doc.Objects) == 4))
+    copy = next(obj for obj in infills(doc) if obj is not infill and obj.Name != infill.Name)
+    check("the copy has the copied solid", copy.Base.Name != box.Name, copy.Base.Name)
+    check("and its mesh", copy.isValid() and copy.Status == "Up to date", copy.Status)
+    copy.StrutRadius = 0.8
+    doc.recompute()
+    changed = wait_until(lambda: copy.Status == "Up to date" and copy.StrutRadii[1] < 0.9)
+    check("it follows its own values", changed, (copy.Status, copy.StrutRadii))
+    check("the first one stays", infill.StrutRadii[1] > 0.95, infill.StrutRadii)
+    name = tree().visualItemRect(tree_item("Light"))
+    # At the name itself: the column beside it is of notes.
+    move_mouse(tree().viewport().mapToGlobal(QtCore.QPoint(name.left() + 40, name.center().y())))
+    press_button()
+    settle()
+    xdotool("key", "F2")
+    wait_until(lambda: isinstance(QtGui.QApplication.focusWidget(), QtGui.QLineEdit))
+    xdotool("key", "ctrl+a")
+    xdotool("type", "Heavy")
+    xdotool("key", "Return")
+    check("it has another name", wait_until(lambda: infill.Label == "Heavy"), infill.Label)
+    picture("tree_4_copied")
+    doc.undo()
+    check("undo takes that back", wait_until(lambda: infill.Label == "Light"), infill.Label)
+
+
 def delete(label):
     """Really click the item in the tree and press Delete."""
     Gui.Selection.clearSelection()
@@ -112,4 +160,4 @@ def delete(label):
     xdotool("key", "Delete")
 
 
-run_checks("tree", {lie_in_the_tree: light, be_deleted: light})
+run_checks("tree", {lie_in_the_tree: light, be_deleted: light, be_copied_and_renamed: light})

@@ -79,7 +79,8 @@ def test_properties_are_grouped_and_described(infill):
     read_only = {p.name for p in PROPERTIES if "ReadOnly" in infill.getTypeOfProperty(p.name)}
     assert read_only == {p.name for p in PROPERTIES if p.group == RESULT}
     hidden = {p.name for p in PROPERTIES if "Hidden" in infill.getTypeOfProperty(p.name)}
-    stored = {"SizedNodes", "SizedRadii", "SizedFor", "SizedLoads", "SizedStates", "SizingReport"}
+    stored = {"SizedNodes", "SizedRadii", "SizedFor", "SizedLoads", "SizedStates", "SizingReport",
+              "SizedSkinPoints", "SizedSkin"}  # fmt: skip
     assert hidden == {"Fingerprint", "SchemaVersion"} | stored
 
 

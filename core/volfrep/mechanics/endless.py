@@ -95,7 +95,7 @@ def stretched_strains(cell: UnitCell) -> int:
     N. A. Fleck, J. Mech. Phys. Solids 54, 2006.
 
     >>> from volfrep.design.cells import find_cell
-    >>> strains_held(find_cell("Octet")), strains_held(find_cell("Box"))
+    >>> stretched_strains(find_cell("Octet")), stretched_strains(find_cell("Box"))
     (6, 3)
     """
     endless = endless_cell(cell)

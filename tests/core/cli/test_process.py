@@ -152,10 +152,10 @@ def test_memory_that_is_not_to_be_had_is_told_with_its_limit(tmp_path: Path) -> 
         'RuntimeError("can\'t start new thread")',
         "ImportError('liblapack.so.3: failed to map segment from shared object')",
     ):
-        code = "import resource, sys\nimport volfrep.cli.properties as told\n"
+        code = "import resource, sys\nimport volfrep.cli.properties as properties\n"
         code += "resource.setrlimit(resource.RLIMIT_AS, (10**11, 10**11))\n"
         code += f"def fails():\n    raise {raised}\n"
-        code += "told._library_told = fails\nfrom volfrep.cli.command import run\n"
+        code += "properties._print_library = fails\nfrom volfrep.cli.command import run\n"
         code += "sys.exit(run(['cells']))"
         done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True)
         assert done.returncode == 2

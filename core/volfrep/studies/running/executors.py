@@ -98,7 +98,7 @@ def state_text(done: int, runs: int, seconds: float, text: str = STATE) -> str:
 def time_text(seconds: float) -> str:
     """A time with its unit, to be read.
 
-    >>> told_time(89), told_time(1200), told_time(5400)
+    >>> time_text(89), time_text(1200), time_text(5400)
     ('89 s', '20 min', '1.5 h')
     """
     if seconds < 90.0:

@@ -117,12 +117,10 @@ class FieldFound:
     Attributes:
         thickness: (e,) mm.
         steps: all on the way.
-        holds: whether it holds all limits.
     """
 
     thickness: Floats
     steps: tuple[FieldStep, ...]
-    holds: bool
 
 
 def evened(points: Floats, reach: float) -> Any:
@@ -175,14 +173,8 @@ class _Search:
                 known = [multigrid_of(model, ~laid.fixed, self.problem.monitor)]
                 solvers.append((laid, known[0]))
             solver = known[0]
-            loads = (
-                laid.loads - solver.fine.full(laid.prescribed)
-                if laid.prescribed.any()
-                else laid.loads
-            )
-            displacements, _ = solver.solve(loads, self._last.get(case.name), ROUGH)
+            displacements, _ = laid.solve(solver, ROUGH, self._last.get(case.name))
             self._last[case.name] = displacements
-            displacements = displacements + laid.prescribed
             own = displacements[model.elements.nodes].reshape(-1, 24)
             use, _ = stress_of(model, own)
             work = float(np.vdot(displacements, laid.loads))
@@ -327,7 +319,7 @@ def stiffest_field(problem: FieldProblem, start: float, most_steps: int = 40) ->
         low = np.maximum(problem.thinnest, chosen / move)
         high = np.minimum(problem.thickest, chosen * move)
         chosen = _at_volume(search, wanted, volume, low, high)
-    return FieldFound(search.even @ best, tuple(search.steps), True)
+    return FieldFound(search.even @ best, tuple(search.steps))
 
 
 def _at_volume(search: _Search, wanted: Floats, volume: float, low: Floats, high: Floats) -> Floats:
@@ -387,14 +379,15 @@ def lightest_field(
         low = np.maximum(problem.thinnest, chosen / move)
         high = np.minimum(problem.thickest, chosen * move)
         chosen = cheapest(chosen, np.maximum(cost, 1e-12), uses, changes, low, high)
-    final, holds = _to_limits(search, chosen, kept)
-    return FieldFound(search.even @ final, tuple(search.steps), holds)
+    final = _to_limits(search, chosen, kept)
+    return FieldFound(search.even @ final, tuple(search.steps))
 
 
-def _to_limits(
-    search: _Search, chosen: Floats, kept: tuple[float, Floats] | None
-) -> tuple[Floats, bool]:
-    """The lightest of what was kept and the last design times factors, and whether it holds."""
+def _to_limits(search: _Search, chosen: Floats, kept: tuple[float, Floats] | None) -> Floats:
+    """The lightest that holds of what was kept and the last design times factors.
+
+    Where none holds, the one whose limits are used least.
+    """
     problem = search.problem
     low = high = None
     log, best = 0.0, (np.inf, chosen)
@@ -422,6 +415,4 @@ def _to_limits(
             log = low[0] + share * (high[0] - low[0])
             if high[0] - low[0] < 1e-4:
                 break
-    if kept is None:
-        return best[1], False
-    return kept[1], True
+    return best[1] if kept is None else kept[1]

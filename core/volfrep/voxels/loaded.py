@@ -68,6 +68,26 @@ class VoxelCase:
             for name, weights in self.places
         ]
 
+    def solve(
+        self, solver: Multigrid, tolerance: float, start: Floats | None = None
+    ) -> tuple[Floats, int]:
+        """(n, 3) displacements, mm, what is prescribed with them, and the steps that they took.
+
+        Args:
+            solver: of the equations with its supports.
+            tolerance: of the forces that are left, over the loads.
+            start: displacements to begin with; None for none.
+
+        Raises:
+            VolfrepError: it does not converge.
+            Cancelled: when the solver's monitor says so.
+        """
+        loads = self.loads
+        if self.prescribed.any():
+            loads = loads - solver.fine.full(self.prescribed)
+        displacements, steps = solver.solve(loads, start, tolerance)
+        return displacements + self.prescribed, steps
+
 
 def solve_nodal_cases(
     cases: Sequence[VoxelCase],
@@ -96,11 +116,7 @@ def solve_nodal_cases(
         for k, case in enumerate(cases):
             if k in states or not np.array_equal(case.fixed, like.fixed):
                 continue
-            loads = case.loads
-            if case.prescribed.any():
-                loads = loads - solver.fine.full(case.prescribed)
-            displacements, steps = solver.solve(loads, tolerance=tolerance)
-            displacements = displacements + case.prescribed
+            displacements, steps = case.solve(solver, tolerance)
             states[k] = state_of(case, displacements, solver.fine.full(displacements), steps)
     return [states[k] for k in range(len(cases))]
 

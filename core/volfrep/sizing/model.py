@@ -293,7 +293,9 @@ def with_sized_skin(
     else:
         points = places.mean(axis=0)[None]
         shares = csr_matrix(np.ones((len(places), 1)))
-    varied = SkinThickness(skin, model.frame_nodes, len(problem.low), points, shares)
+    varied = SkinThickness(
+        skin, model.frame_nodes, len(problem.low), points, shares, model.skin_volume or None
+    )
     least, most = (np.full(len(points), np.sqrt(bound)) for bound in bounds)
     if given is not None:
         own = np.sqrt(given(points))

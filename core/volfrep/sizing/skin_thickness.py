@@ -20,6 +20,7 @@ import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
 
+from ..mesh import remesh
 from ..util.peaks import most_but_peaks
 from ..util.types import Floats, Ints
 from .node_radii import NodeRadii
@@ -33,6 +34,8 @@ _REACH = 2.0
 _BESIDE = 3
 #: Shells with this part of the largest share in a value are to hold the stress with it.
 _OWN = 0.7
+#: However thick a skin is, its inner side keeps this part of the outer one's area.
+_INNERMOST = 0.1
 
 
 def control_points(places: Floats, apart: float) -> Floats:
@@ -68,6 +71,8 @@ class SkinThickness:
         radii: n, how many of the variables are radii.
         points: (p, 3) the control points, mm.
         shares: (t, p) of their values in the thickness of the shells.
+        measured: mm3, the skin's volume in the part that the model was made of; None for that of
+            its shells.
     """
 
     skin: SkinModel
@@ -75,6 +80,7 @@ class SkinThickness:
     radii: int
     points: Floats
     shares: sparse.csr_matrix
+    measured: float | None = None
 
     @cached_property
     def units(self) -> UnitBlocks:
@@ -114,12 +120,54 @@ class SkinThickness:
         )
 
     def volume(self, variables: Floats) -> float:
-        """mm3, the shells' area times their thickness."""
-        return float(self.skin.shells.area @ self.of_shells(variables))
+        """mm3: of each shell what lies below its outside, which narrows where faces meet."""
+        thick = self.of_shells(variables)
+        outer, narrows = self._outside
+        straight = self._narrowest(thick)
+        volume = straight - narrows * straight**2 + _INNERMOST * (thick - straight)
+        return self._over_shells * float(outer @ volume)
 
     def volume_change(self, variables: Floats) -> Floats:
         """(n + p,) its derivative."""
-        return self.to_variables(variables, self.skin.shells.area[:, None])[:, 0]
+        thick = self.of_shells(variables)
+        outer, narrows = self._outside
+        inner = np.maximum(1.0 - 2.0 * narrows * thick, _INNERMOST)
+        change = self.to_variables(variables, (outer * inner)[:, None])[:, 0]
+        return np.asarray(self._over_shells * change)
+
+    @cached_property
+    def _outside(self) -> tuple[Floats, Floats]:
+        """(t,) the area of shells' outside, mm2, and (t,) by how much less it is half a mm deeper.
+
+        That is known where the model has its middle, and is a mean over control points: next to an
+        edge a triangle's own inner side may have turned over.
+        """
+        triangles, thick = self.skin.shells.triangles, self.skin.shells.thickness
+        outside = self.skin.outside.vertices
+        middle = 0.5 * (outside + self.skin.inside)
+        normal, within = (remesh.normals(places[triangles]) for places in (outside, middle))
+        outer = np.linalg.norm(normal, axis=1)
+        within = np.einsum("ti,ti->t", normal, within) / np.maximum(outer, 1e-300)
+        whole = np.maximum(self.shares.T @ (outer * thick), 1e-300)
+        return 0.5 * outer, self.shares @ ((self.shares.T @ (outer - within)) / whole)
+
+    def _narrowest(self, thick: Floats) -> Floats:
+        """(t,) mm, of thicknesses (t,) what narrows."""
+        narrows = self._outside[1]
+        return np.where(
+            2.0 * narrows * thick > 1.0 - _INNERMOST,
+            0.5 * (1.0 - _INNERMOST) / np.maximum(narrows, 1e-300),
+            thick,
+        )
+
+    @cached_property
+    def _over_shells(self) -> float:
+        """The volume that was measured over that of the shells that the model was made with."""
+        if self.measured is None:
+            return 1.0
+        outer, narrows = self._outside
+        thick = self.skin.shells.thickness
+        return self.measured / float(outer @ (thick - narrows * thick**2))
 
     def stresses(self, variables: Floats, displacements: Floats) -> Floats:
         """(t, k) the larger von Mises stress of both sides, MPa, of (nodes, 6, k)."""

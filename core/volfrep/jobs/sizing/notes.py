@@ -10,6 +10,7 @@ import numpy as np
 from ...design.spec import LatticeSpec
 from ...fem.beam_mesh import MEASURED_TO
 from ...loads.load_cases import LoadCase
+from ...mechanics.materials import SolidMaterial
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel
 from ...util.errors import VolfrepError
@@ -20,6 +21,8 @@ from ..infill import Infill
 #: Beyond these shares beams and shells are taken for what they are not: of its space that struts
 #: fill, of the struts that are shorter than wide, and of the skin on walls thinner than two skins.
 DENSE, SHORT, THIN_WALLS = 0.5, 0.25, 0.05
+#: A mass that was asked for is there within this part of it.
+MASS = 0.02
 
 #: A motion as one body that supports resist by less than this part of another is free.
 _FREE = 1e-9
@@ -44,6 +47,17 @@ def limit_not_held(problem: Problem, analysis: Analysis) -> str:
         f"that were allowed, {used}. What may help: thicker struts, where --thickest limits them; "
         f"larger cells, which bear thicker ones; {_REMEDIES[worst]}."
     )
+
+
+def other_mass(volume: float, asked: float, material: SolidMaterial) -> list[str]:
+    """A sentence where struts and skin do not have the volume asked for, mm3."""
+    if abs(volume / asked - 1.0) <= MASS:
+        return []
+    return [
+        f"Struts and skin have {volume * material.density / 1000.0:.4g} g, of "
+        f"{asked * material.density / 1000.0:.4g} g asked for: with radii and thicknesses within "
+        "their bounds it comes no nearer."
+    ]
 
 
 def free_motions(problem: Problem) -> list[str]:

@@ -41,6 +41,7 @@ from .notes import (
     left_out,
     limit_not_held,
     not_confirmed,
+    other_mass,
     small_dimples,
     stressed_skin,
     too_dense,
@@ -49,7 +50,7 @@ from .notes import (
 from .part_model import given_radii, part_model
 from .printed import Printing, printed_figures, printed_note
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, without_thin_struts
-from .skin_search import SkinDesign, design_skin, skin_peaks, thickness_there
+from .skin_search import SkinDesign, design_skin, skin_peaks, thickness_there, weighed
 from .solid_places import filled_notes, solid_places
 
 #: So many times a design is made thicker because of what CalculiX finds.
@@ -57,6 +58,8 @@ CORRECTIONS = 3
 #: A skin is held to this part of its limit of stress, as its middle moves a little yet; and is
 #: chosen so many times. It holds its limit when that is used no more than so.
 MARGIN, SKINS, SKIN_HOLDS = 0.98, 2, 1.01
+#: The part with its skin is made so many times at most, until it has the mass asked for.
+WEIGHINGS, WEIGHED = 4, 0.005
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -254,10 +257,17 @@ def _with_sized_skin(
                 infill.solid, spec, task.loads, goal, task.monitor, task.cache, design,
                 most_steps=most_steps, watch=watched, margin=margin,
             )  # fmt: skip
-        part = Infill(infill.solid, design.spec, monitor=task.monitor, cache=task.cache)
-        model = part_model(part, task.loads, goal, task.cache)
-        first = design.radii_at(model.wireframe.nodes)
-        first = np.clip(first, model.problem.low, model.problem.high)
+        for weighing in range(WEIGHINGS):
+            part = Infill(infill.solid, design.spec, monitor=task.monitor, cache=task.cache)
+            model = part_model(part, task.loads, goal, task.cache)
+            first = design.radii_at(model.wireframe.nodes)
+            first = np.clip(first, model.problem.low, model.problem.high)
+            if design.volume is None or weighing == WEIGHINGS - 1:
+                break
+            volume = model.problem.radii.volume(first) + model.skin_volume
+            if abs(volume / design.volume - 1.0) < WEIGHED:
+                break
+            design = weighed(design, volume, goal.mirrors)
         chosen = replace(task, infill=part, model=model, first=first, skin=design)
         search = _search(chosen, most_steps, watched)
         if limit is None or search.sized.stopped == "cancelled":
@@ -327,6 +337,10 @@ def _notes_of(task: _Task, search: _Search) -> list[str]:
     """What the user is told of a search's end."""
     limits, model, sized = task.goal.limits, search.model, search.sized
     notes = [] if sized.holds else [limit_not_held(model.problem, sized.analysis)]
+    if task.skin is not None and task.skin.volume is not None:
+        notes += other_mass(
+            sized.analysis.volume + model.skin_volume, task.skin.volume, task.loads.material
+        )
     notes += stressed_skin(model, sized.analysis, limits, task.skin is not None)
     notes += free_motions(model.problem)
     notes += left_out(task.infill.spec) + small_dimples(model, limits)

@@ -58,6 +58,9 @@ class SkinDesign:
         even: one radius and one thickness that hold the same limits, their volume in mm3 and
             whether they do hold them; None without limits.
         limit: of stress, MPa, that the skin was held to; None for none.
+        problem: of the last search.
+        variables: its radii and roots of thicknesses.
+        volume: mm3, what the part's struts and skin are to have; None with limits.
         solid: where the part became solid, as its skin would have been thicker than it may be.
     """
 
@@ -68,6 +71,9 @@ class SkinDesign:
     steps: tuple[Step, ...]
     even: dict[str, Any] | None
     limit: float | None
+    problem: Problem
+    variables: Floats
+    volume: float | None = None
     solid: SolidPlaces = NOWHERE
     thickest: float = np.inf
 
@@ -128,9 +134,11 @@ def design_skin(
         )  # fmt: skip
         problem = varied.problem
         first = np.clip(np.concatenate([radii, roots]), problem.low, problem.high)
+        if not goal.limits.any and goal.volume is None:
+            goal = replace(goal, volume=problem.radii.volume(first))
 
-        def watched(step: int, found: Step, done: int = len(steps)) -> bool:
-            return watch(done + step, found)
+        def watched(step: int, taken: Step, done: int = len(steps)) -> bool:
+            return watch(done + step, taken)
 
         sized = _searched(problem, limits, goal, first, most_steps, watched)
         steps += sized.steps
@@ -138,22 +146,36 @@ def design_skin(
         more = solids
         if goal.solid_places and goal.limits.any and np.isfinite(patch):
             more = more_solid(problem, limits, sized.analysis.radii, solid, solids, high)
-        field = _field(problem, sized, goal.mirrors, more)
-        spec = replace(spec, shell=low, skin_field=field)
+        found = sized.analysis.radii
+        spec = replace(spec, shell=low, skin_field=_field(problem, found, goal.mirrors, more))
         if more is not solids:
             searches = min(max(searches, number + 2), _MOST_SEARCHES)
         even = None
         if number == searches - 1 and goal.limits.any:
             even = _even(problem, limits)
-        final = sized.analysis.radii[:count]
         design = SkinDesign(
-            spec, model.wireframe.nodes, final, sized, steps, even, limits.skin_stress, more, high
-        )
+            spec, model.wireframe.nodes, found[:count], sized, steps, even, limits.skin_stress,
+            problem, found, goal.volume, more, high,
+        )  # fmt: skip
         if sized.stopped == "cancelled":
             break
         number, solids = number + 1, more
     assert design is not None
     return design
+
+
+def weighed(design: SkinDesign, volume: float, mirrors: Mirrors | None) -> SkinDesign:
+    """A design whose part has a volume of struts and skin, mm3, made to have the wanted one.
+
+    All radii and roots of thicknesses have one factor, as far as bounds allow.
+    """
+    assert design.volume is not None
+    problem = design.problem
+    wanted = problem.radii.volume(design.variables) * design.volume / volume
+    found = problem.radii.scaled_to(design.variables, wanted, problem.low, problem.high)
+    field = _field(problem, found, mirrors, design.solid)
+    spec = replace(design.spec, skin_field=field)
+    return replace(design, spec=spec, radii=found[: len(design.nodes)], variables=found)
 
 
 def _constant(thickness: float) -> Callable[[Floats], Floats]:
@@ -193,18 +215,20 @@ def _searched(
 ) -> Sized:
     if limits.any:
         return lightest(problem, limits, first, most_steps=most_steps, watch=watch)
-    volume = problem.radii.volume(first) if goal.volume is None else goal.volume
+    assert goal.volume is not None
     weights = None if goal.weights is None else np.array(goal.weights, float)
-    return stiffest(problem, volume, first, weights=weights, most_steps=most_steps, watch=watch)
+    return stiffest(
+        problem, goal.volume, first, weights=weights, most_steps=most_steps, watch=watch
+    )
 
 
 def _field(
-    problem: Problem, sized: Sized, mirrors: Mirrors | None, solids: SolidPlaces
+    problem: Problem, variables: Floats, mirrors: Mirrors | None, solids: SolidPlaces
 ) -> PointField:
     """The thickness of a design at the skin's inner side, where its wall is to be."""
     skin = problem.skin
     assert skin is not None
-    model, chosen = skin.skin, skin.wanted(sized.analysis.radii)
+    model, chosen = skin.skin, skin.wanted(variables)
     filled = solids.depth(skin.points)
     chosen = np.where(filled > 0.0, filled, chosen)
     rows = np.unique(model.shells.triangles)

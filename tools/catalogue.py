@@ -176,7 +176,8 @@ def materials_table() -> str:
         "|---|---|---|---|---|---|---|",
     ]
     lines += [
-        f"| {m.name} | {m.density:g} | {m.young:,.0f} | {m.poisson:g} | {m.yield_stress:g} | "
+        f"| {m.name} | {m.density:g} | {m.young:,.0f} | {m.poisson:g} | "
+        f"{f'{m.yield_stress:g}' if m.yield_stress else '-'} | "
         f"{', '.join(m.processes)} | {m.source} |"
         for m in MATERIALS.values()
     ]

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from .design.spec import LatticeSpec
     from .io.solid import read_solid
     from .jobs.blocks import write_block_stl
+    from .jobs.crushing import crush
     from .jobs.figures.find import find_lattices as find
     from .jobs.figures.properties import lattice_properties as properties
     from .mechanics.summary import CellProperties
@@ -65,6 +66,7 @@ _HOMES = {
     "bare_surface": "api.calls",
     "block": "api.calls",
     "coupons": "api.calls",
+    "crush": "jobs.crushing:crush",
     "evaluate": "studies.sweep",
     "sweep": "studies.sweep",
     "Front": "studies.study",
@@ -106,6 +108,7 @@ __all__ = [
     "block",
     "cell_from_lines",
     "coupons",
+    "crush",
     "evaluate",
     "fill",
     "find",

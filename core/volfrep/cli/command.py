@@ -57,6 +57,9 @@ COMMANDS = {
     "properties": (
         "properties", "Tell density, stiffness, strength and conductance of a cell's lattice.",
     ),
+    "crush": (
+        "crush", "Crush a block of cells between plates: its plateau, and the energy it takes.",
+    ),
     "find": (
         "find",
         "Tell which library cells, at which radius, have a modulus or a relative density; or "

@@ -2,7 +2,8 @@
 """The table of what is said to a run beside the lattice: files, forms, limits. A new one is a row.
 
 Commands, what they read and write, and docs/reference.md follow from it, as the lattice's options
-do from `design.parameters`. Read without numpy, so that ``--help`` answers at once.
+do from `design.parameters`. Read without numpy, so that ``--help`` answers at once. It is long
+because every option of every command is a row of one table.
 """
 
 from __future__ import annotations
@@ -132,12 +133,21 @@ RUN_OPTIONS = (
         "FOLDER", required=True, writes="output", short="o",
     ),
     RunOption(
+        "output", ("crush",), "the curve: strain, stress in MPa", "FILE.csv", writes="output",
+        short="o",
+    ),
+    RunOption(
         "kinds", ("coupon",),
         "with commas: cube (between plates), tension (a bar with grips), bending (three points), "
         "ladder (single struts over diameter and inclination)",
         "WORDS", default="cube,tension,bending,ladder",
     ),
     RunOption("cells", ("coupon",), "along the cube's edge (default 4)", "N", read=int, default=4),
+    RunOption("cells", ("crush",), "along the block's edges (default 3)", "N", read=int, default=3),
+    RunOption(
+        "strain", ("crush",), "how far the plate goes, over the block's height (default 0.3)", "S",
+        read=float, default=0.3,
+    ),
     RunOption("number", ("coupon",), "of the first one (default 1)", "N", read=int, default=1),
     RunOption(
         "diameters", ("coupon",), "of the ladder (default 0.4,0.6,0.8,1,1.5)", "MM,...",
@@ -243,6 +253,12 @@ RUN_OPTIONS = (
         "of the solid: a name in docs/cells.md, a .toml or .json file, or NAME,E,NU; without "
         "one, figures are in units of the solid's",
         "M", reads="material file",
+    ),
+    RunOption(
+        "material", ("crush",),
+        "of the struts: a name in docs/cells.md, a .toml or .json file, or NAME,E,NU; one without "
+        "a yield stress stays elastic",
+        "M", required=True, reads="material file",
     ),
     RunOption(
         "process", MESHED,
@@ -571,10 +587,10 @@ RUN_OPTIONS = (
     RunOption("cell-size", ("find",), "edge L (default 10)", "MM", read=float, default=10.0),
     RunOption("most", ("find",), "cells told (default 10)", "N", read=int, default=10),
     RunOption(
-        "cell-size", ("properties",), "edge L of a cell", "MM", read=float, required=True,
+        "cell-size", ("properties", "crush"), "edge L of a cell", "MM", read=float, required=True,
     ),
     RunOption(
-        "strut-radius", ("properties",), "radius r of the struts", "MM", read=float,
+        "strut-radius", ("properties", "crush"), "radius r of the struts", "MM", read=float,
         either="size", required=True,
     ),
     RunOption(
@@ -586,7 +602,7 @@ RUN_OPTIONS = (
         either="size", required=True,
     ),
     RunOption(
-        "relative-density", ("properties",), "from 0 to 1, in place of these", "D",
+        "relative-density", ("properties", "crush"), "from 0 to 1, in place of these", "D",
         read=float, either="size", required=True,
     ),
     RunOption(
@@ -606,7 +622,7 @@ RUN_OPTIONS = (
         "voxels", ("properties",), "along L (default: what the radius asks for)", "N", read=int,
     ),
     RunOption(
-        "json", ("properties", "find"), "write the figures, and their errors, as JSON",
+        "json", ("properties", "find", "crush"), "write the figures, and their errors, as JSON",
         "FILE", writes="figures",
     ),
     RunOption(
@@ -637,7 +653,8 @@ RUN_OPTIONS = (
     RunOption("limit-memory", ("sweep",), "end a run that takes more", "GB", read=float),
     RunOption("retry-failed", ("sweep",), "try again what failed before"),
     RunOption(
-        "quiet", (*LATTICE, "infill", "coupon", "solve", "homogenise", "orient", "sweep"),
+        "quiet",
+        (*LATTICE, "infill", "coupon", "crush", "solve", "homogenise", "orient", "sweep"),
         "print nothing but errors",
     ),
 )  # fmt: skip

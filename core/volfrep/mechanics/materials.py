@@ -121,6 +121,10 @@ MATERIALS = {
         SolidMaterial("PA11", 0.99, 1_600, 0.40, 48, _POWDER,
                       "EOS PA 1101: not checked in its sheet, but within additive.tools' "
                       "(0.93-1.00, 1,000-2,000, 37-48); nu: handbook"),
+        SolidMaterial("TPU", 1.10, 80, 0.45, None, _POWDER,
+                      "MakerVerse's guide (MJF, Shore A 88 to 90): density, modulus (75 to 85, "
+                      "ISO 527, small strains); nu: handbook of rubbers; no yield: it stays "
+                      "elastic, and strength has no limit to be sized for"),
         SolidMaterial("PLA", 1.24, 2_350, 0.36, 49.5, ("FFF",),
                       "Ultimaker PLA, data sheet as others quote it: modulus and yield; density "
                       "and nu: FreeCAD's card PLA-Generic"),

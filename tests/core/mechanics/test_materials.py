@@ -24,6 +24,7 @@ def test_the_table_is_complete_and_every_process_is_known():
         "IN718",
         "PA12",
         "PA11",
+        "TPU",
         "PLA",
         "PETG",
         "ABS",
@@ -36,7 +37,7 @@ def test_the_table_is_complete_and_every_process_is_known():
         for figure in ("density", "modulus", "nu", "yield|strength"):
             told = any(word in material.source for word in figure.split("|"))
             assert told or "not checked" in material.source, (material.name, figure)
-        assert material.yield_stress
+        assert material.yield_stress or material.name == "TPU"  # which stays elastic
         assert set(material.processes) <= set(PROCESSES)
         assert material.processes
 

@@ -15,7 +15,7 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep import ICONS, preferences
-from freecad_volfrep.features.infill.freshness import STALE, why_stale
+from freecad_volfrep.features.infill.freshness import NOT_RECOMPUTED, STALE, why_stale
 from freecad_volfrep.features.infill.lattice_infill import UP_TO_DATE
 from freecad_volfrep.features.infill.skin import is_just_made
 from freecad_volfrep.features.reports.statistics import infills_of
@@ -277,9 +277,15 @@ class LatticeInfillView:
             obj, redone = self.object, self._redone
             self._redone = set()
             complete_steps(obj.Document, is_undone="Fingerprint" in redone)
+            why = why_stale(obj)
+            if not obj.isValid() and why in ("", NOT_RECOMPUTED):
+                # FreeCAD brings a solid back, touched, but not that what needs it is valid.
+                obj.touch()
+                obj.Document.recompute([obj])
+                why = why_stale(obj)
             if "Fingerprint" not in redone:
                 return
-            if why_stale(obj) and obj.Status == UP_TO_DATE:
+            if why and obj.Status == UP_TO_DATE:
                 obj.Status = STALE
                 obj.touch()
 

@@ -12,12 +12,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
     check,
     click_in_tree,
-    click_menu,
     infills,
     move_mouse,
     picture,
     press_button,
     run_checks,
+    said,
     select,
     settle,
     show_model,
@@ -111,6 +111,36 @@ def be_deleted(doc, box, infill):
     check("and alive", back.isValid(), back.getStatusString())
 
 
+def lose_its_solid(doc, box, infill):
+    """The Delete key takes the solid away, and the infill says so; undo mends both by itself."""
+
+    def agree(dialog):
+        start_by_click(dialog.button(QtGui.QMessageBox.Yes))
+
+    facets = infill.Mesh.CountFacets
+    when_dialog(QtGui.QMessageBox, agree)  # FreeCAD asks whether what needs it may break
+    delete("Block")
+    check("the solid is deleted", wait_until(lambda: doc.Objects == [infill]), len(doc.Objects))
+    check("the infill says so", wait_until(lambda: not infill.isValid()), infill.Status)
+    picture("tree_5_without_its_solid")
+    check("and the report view", "no solid to fill: choose one as Base" in said(), said())
+    Gui.getMainWindow().findChild(QtGui.QTextEdit, "Report view").clear()  # of FreeCAD's traceback
+    return_focus()
+    xdotool("key", "ctrl+z")
+    check("undo brings it back", wait_until(lambda: len(doc.Objects) == 2))
+    check("the infill is valid again", wait_until(infill.isValid), infill.State)
+    check("without a refresh", wait_until(lambda: infill.Status == "Up to date"), infill.Status)
+    check("with its mesh", infill.Mesh.CountFacets == facets, infill.Mesh.CountFacets)
+    check("with its solid under it", lies_under("Block", "Light"))
+    picture("tree_6_with_it_again")
+    check("redo can follow", doc.RedoCount == 1, (doc.UndoNames, doc.RedoNames))
+    doc.redo()
+    check("and takes it away", wait_until(lambda: doc.Objects == [infill]))
+    settle()
+    doc.undo()
+    check("and back", wait_until(lambda: len(doc.Objects) == 2 and infill.isValid()), infill.State)
+
+
 @slow
 def be_copied_and_renamed(doc, box, infill):
     """Copied with its solid and pasted it is another infill; F2 renames, and undo takes it back."""
@@ -125,7 +155,8 @@ def be_copied_and_renamed(doc, box, infill):
     xdotool("key", "ctrl+c")
     wait_until(lambda: Gui.Command.get("Std_Paste").isActive())
     settle()
-    click_menu("Edit", "Paste")
+    return_focus()
+    xdotool("key", "ctrl+v")
     check("there are two and their solids", wait_until(lambda: len(doc.Objects) == 4))
     copy = next(obj for obj in infills(doc) if obj is not infill and obj.Name != infill.Name)
     check("the copy has the copied solid", copy.Base.Name != box.Name, copy.Base.Name)
@@ -151,6 +182,13 @@ def be_copied_and_renamed(doc, box, infill):
     check("undo takes that back", wait_until(lambda: infill.Label == "Light"), infill.Label)
 
 
+def return_focus():
+    """Let FreeCAD have the keys again after a box: here is no window manager that does."""
+    xdotool("windowfocus", int(Gui.getMainWindow().winId()))
+    wait_until(lambda: QtGui.QApplication.activeWindow() is Gui.getMainWindow())
+    tree().setFocus()
+
+
 def delete(label):
     """Really click the item in the tree and press Delete."""
     Gui.Selection.clearSelection()
@@ -160,4 +198,12 @@ def delete(label):
     xdotool("key", "Delete")
 
 
-run_checks("tree", {lie_in_the_tree: light, be_deleted: light, be_copied_and_renamed: light})
+run_checks(
+    "tree",
+    {
+        lie_in_the_tree: light,
+        be_deleted: light,
+        lose_its_solid: light,
+        be_copied_and_renamed: light,
+    },
+)

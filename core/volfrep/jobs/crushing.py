@@ -14,7 +14,7 @@ from ..design.drawn_cell import DrawnCell
 from ..design.parameters.keywords import as_cell
 from ..design.spec import LatticeSpec
 from ..fem.beam_mesh import BeamMesh, fitted_beams
-from ..mechanics.corotational import CORRECTIONS, Balance, Beams
+from ..mechanics.corotational import SWINGING, Balance, Beams
 from ..mechanics.density import radius_of_density
 from ..mechanics.density import relative_density as density_of
 from ..mechanics.materials import SolidMaterial, find_material
@@ -38,6 +38,8 @@ IMPERFECTION = 0.01
 #: Steps of strain: the largest, where there is no way on, and how fast they grow: by so little that
 #: none passes over the load at which a strut buckles.
 LARGEST, LEAST, GROWTH = 0.01, 1e-5, 1.25
+#: An element whose ends are turned so far against each other, radians, is folded.
+FOLDED = 2.6
 #: Drag on nodes that leave the block's even squeeze, in units of E r^2 / L: it carries a strut that
 #: snaps through to its next balance, where none lies near; up to how many times ten where that does
 #: not do; and the share of the work from which on what it takes is told.
@@ -193,29 +195,34 @@ def crush(
     if strut_radius is None:
         assert relative_density is not None
         strut_radius = cell_size * radius_of_density(unit, relative_density)
-        wireframe = replace(wireframe, radii=np.full_like(wireframe.radii, strut_radius))
+        thicker = strut_radius / (0.1 * cell_size)
+        wireframe = replace(wireframe, radii=thicker * wireframe.radii)
     model, notes = fitted_beams(
         wireframe, None, unit, cell_size, section="circle", elements_per_strut=ELEMENTS
     )
-    strains, forces, dragged = _pressed(model, solid, cell_size, strain, Monitor(progress))
-    if strains[-1] < strain:
-        notes += (f"No equilibrium was found beyond a strain of {100 * strains[-1]:.1f} %.",)
-    if dragged > TOLD_DRAG:
-        notes += (f"Struts snap: {100 * dragged:.0f} % of the work went into what slows them.",)
+    strains, forces, ends = _pressed(model, solid, cell_size, strain, Monitor(progress))
     area = float(np.prod(np.ptp(wireframe.nodes[:, :2], axis=0)))
     density = density_of(unit, strut_radius / cell_size).value
     return CrushCurve(
-        unit.name, cell_size, strut_radius, count, solid, density, strains, forces / area, notes
+        unit.name,
+        cell_size,
+        strut_radius,
+        count,
+        solid,
+        density,
+        strains,
+        forces / area,
+        notes + ends,
     )
 
 
 def _pressed(
     mesh: BeamMesh, solid: SolidMaterial, cell_size: float, most: float, monitor: Monitor
-) -> tuple[Floats, Floats, float]:
-    """A plate comes down on beams, till no equilibrium is found.
+) -> tuple[Floats, Floats, tuple[str, ...]]:
+    """A plate comes down on beams.
 
     Returns:
-        (k,) strains, (k,) forces, N, and what share of the plate's work the drag took.
+        (k,) strains, (k,) forces, N, and sentences on why it ends before, and on what it lost.
     """
     beams = _beams(mesh, solid)
     heights = mesh.nodes[: mesh.joints, 2]
@@ -231,6 +238,7 @@ def _pressed(
     state, strain, level, lost = beams.at_rest(), 0.0, 0, 0.0
     step = min(0.25 * _buckling_strain(mesh), LARGEST)
     strains, forces = [0.0], [0.0]
+    notes: tuple[str, ...] = ()
     with monitor.stage("crushing", 0.0, 1.0):
         while strain < most * (1.0 - 1e-9):
             monitor.tick(strain / most)
@@ -244,6 +252,7 @@ def _pressed(
                 if step < LEAST:
                     level, step = level + 1, 8.0 * LEAST
                 if level > MOST_DRAG:
+                    notes += (f"No equilibrium was found beyond {100 * strain:.1f} %.",)
                     break
                 continue
             ahead, reactions, corrections = found
@@ -253,13 +262,22 @@ def _pressed(
             strain += step
             strains.append(strain)
             forces.append(-float(reactions[top, 2].sum()))
-            if corrections <= CORRECTIONS // 2:
+            if float(beams.folds(state).max()) > FOLDED:
+                notes += (
+                    f"The curve ends at {100 * strain:.1f} %: a strut is folded, and would touch "
+                    "itself.",
+                )
+                break
+            if corrections <= SWINGING:
                 step = min(GROWTH * step, LARGEST)
                 level = max(level - 1, 0) if step > 0.1 * LARGEST else level
     if len(strains) == 1:
         raise VolfrepError("No equilibrium was found for the first step: use thinner struts.")
     work = (high - low) * float(np.trapz(forces, strains))
-    return np.array(strains), np.array(forces), lost / work
+    if lost > TOLD_DRAG * work:
+        share = 100 * lost / work
+        notes += (f"Struts snap: {share:.0f} % of the work went into what slows them.",)
+    return np.array(strains), np.array(forces), notes
 
 
 def _buckling_strain(mesh: BeamMesh) -> float:

@@ -25,8 +25,11 @@ AROUND = 12
 #: Where along an element its section is looked at, in units of its half; both count alike.
 STATIONS = np.array([-1.0, 1.0]) / np.sqrt(3.0)
 
-#: What is out of balance, in units of the largest force, and the most corrections of a step.
-BALANCE, CORRECTIONS = 1e-3, 12
+#: What is out of balance, in units of the largest force, and the most corrections of a step; what
+#: may be left after these, where one fold swings, is made good in the next step.
+BALANCE, CORRECTIONS, LEFT = 1e-3, 10, 1e-2
+#: After so many, corrections swing about a fold that yields: half of each is taken.
+SWINGING = 4
 #: A correction that turns a node farther, radians, leads nowhere.
 MOST_TURN = 0.5
 
@@ -113,6 +116,13 @@ class Beams:
             np.zeros((count, 2, fibres)),
         )
 
+    def folds(self, state: State) -> Floats:
+        """(e,) by how much both ends of each element are turned against each other, radians."""
+        ends = state.turns[self.elements] @ self.axes[:, None]
+        between = _vectors(ends[:, 0].swapaxes(1, 2) @ ends[:, 1])
+        angles: Floats = np.linalg.norm(between, axis=1)
+        return angles
+
     def respond(self, state: State) -> tuple[Floats, Floats, Floats]:
         """Forces that hold the beams where they are, if that is a small step from a state.
 
@@ -138,6 +148,7 @@ class Beams:
             [(length - self.length)[:, None], _vectors(back[:, None] @ ends).reshape(-1, 6)], axis=1
         )
         forces, stiffness, plastic = self._local(local, state.plastic)
+        _to_spins(local, forces, stiffness)
         lean = np.einsum("eij,ekj->eki", back, up)  # both ends' second axes in the frame
         return *_global(frame, length, lean, forces, stiffness), plastic
 
@@ -194,7 +205,7 @@ class Balance:
     def __init__(self, beams: Beams, free: Bools) -> None:
         """Beams of which (6 n,) some moves are free, x, y, z and turns of each node.
 
-        `drag` is on displacements, N/mm.
+        `drag` is on displacements, N/mm, and on turns at an element's length.
         """
         self.beams, self.free = beams, free
         self.drag = 0.0
@@ -225,7 +236,7 @@ class Balance:
         now, even = state, even.ravel()
         given = np.where(self.free, 0.0, even)
         done = np.zeros_like(even)
-        drag = np.tile(np.repeat([self.drag, 0.0], 3), len(even) // 6)
+        drag = np.tile(self.drag / self.weight**2, len(even) // 6)
         for corrections in range(CORRECTIONS + 1):
             local, stiffness, plastic = self.beams.respond(now)
             forces = np.bincount(self.unknown, local.ravel(), len(even)).astype(np.float64)
@@ -233,7 +244,8 @@ class Balance:
             weighed = dragged * np.tile(self.weight, len(even) // 6)
             loose = float(np.abs(weighed[self.free]).max())
             largest = float(np.abs(local * np.tile(self.weight, 2)).max())
-            if corrections and loose <= BALANCE * largest:
+            enough = LEFT if corrections == CORRECTIONS else BALANCE
+            if corrections and loose <= enough * largest:
                 self.stiffness = stiffness
                 return State(now.places, now.turns, plastic), forces.reshape(-1, 6), corrections
             if corrections == CORRECTIONS or not np.isfinite(loose):
@@ -251,6 +263,7 @@ class Balance:
             ).solve(-(dragged + matrix @ given)[self.free])  # fmt: skip
             if float(np.abs(moves.reshape(-1, 6)[:, 3:]).max()) > MOST_TURN:
                 return None
+            moves *= 0.5 if corrections > SWINGING else 1.0
             now = now.moved(moves.reshape(-1, 6))
             done += moves
             given[:] = 0.0
@@ -285,6 +298,37 @@ def _vectors(turns: Floats) -> Floats:
     longer = np.where(sine > 1e-12, angle / np.maximum(sine, 1e-12), 1.0)
     vectors: Floats = axis * longer[..., None]
     return vectors
+
+
+def _to_spins(local: Floats, forces: Floats, stiffness: Floats) -> None:
+    """Make what goes with turns (e, 7) what goes with small spins about the frame's axes, in place.
+
+    Args:
+        local: (e, 7) stretch and turns.
+        forces: (e, 7).
+        stiffness: (e, 7, 7).
+    """
+    turning = np.zeros_like(stiffness)
+    turning[:, 0, 0] = 1.0
+    extra = np.zeros_like(stiffness)
+    for rows in (slice(1, 4), slice(4, 7)):
+        turn, moment = local[:, rows], forces[:, rows]
+        angle = np.maximum(np.linalg.norm(turn, axis=1), 1e-3)
+        sine, cosine, half = np.sin(angle), np.cos(angle), np.sin(0.5 * angle) ** 2
+        second = (2.0 * sine - angle * (1.0 + cosine)) / (2.0 * angle**2 * sine)
+        fourth = (angle * (angle + sine) - 8.0 * half) / (4.0 * angle**4 * half)
+        cross = _cross_matrix(turn)
+        square = cross @ cross
+        unit = np.eye(3)
+        inverse = unit - 0.5 * cross + second[:, None, None] * square
+        outer = turn[:, :, None] * moment[:, None, :]
+        product = np.einsum("ei,ei->e", turn, moment)[:, None, None] * unit
+        change = second[:, None, None] * (outer - 2.0 * outer.swapaxes(1, 2) + product)
+        change += fourth[:, None, None] * square @ outer.swapaxes(1, 2)
+        extra[:, rows, rows] = (change - 0.5 * _cross_matrix(moment)) @ inverse
+        turning[:, rows, rows] = inverse
+    forces[:] = np.einsum("ekj,ek->ej", turning, forces)
+    stiffness[:] = turning.swapaxes(1, 2) @ stiffness @ turning + extra
 
 
 def _cross_matrix(vectors: Floats) -> Floats:
@@ -343,10 +387,10 @@ def _global(
     geometric -= turned @ turn
     moments = forces[:, 1:4] + forces[:, 4:7]
     arm = np.zeros((count, 3))
-    arm[:, 1] = (ratio * moments[:, 0] - moments[:, 1]) / length
+    arm[:, 1] = (ratio * moments[:, 0] + moments[:, 1]) / length
     arm[:, 2] = moments[:, 2] / length
     stretch = moves[:, 0]
-    geometric -= np.einsum("eaj,ea,ek->ejk", turn, arm, stretch)
+    geometric += np.einsum("eaj,ea,ek->ejk", turn, arm, stretch)
     tangent = moves.swapaxes(1, 2) @ stiffness @ moves + geometric
     fixed = whole @ tangent @ whole.swapaxes(1, 2)
     return np.einsum("eij,ej->ei", whole, in_frame), fixed

@@ -60,6 +60,53 @@ def test_the_mesh_has_struts_of_the_compensated_thickness():
     assert 2 * np.sqrt(strut / np.pi) == pytest.approx(1 / 1.075, abs=CLOSE)
 
 
+def published(angle: float) -> float:
+    """What is added to a diameter at an inclination, mm, by the rows above."""
+    low, above = (0, 15, 45, 75, 90), (1, 30, 60, 89, 91)
+    return dict(zip(low, (m - d for _, d, m in TI64), strict=True))[
+        low[int(np.searchsorted(above, angle))]
+    ]
+
+
+def diameter_of_section(mesh: trimesh.Trimesh, middle: np.ndarray, way: np.ndarray) -> float:
+    """Of the circle as large as the mesh's section across a strut, mm."""
+    areas = []
+    for loop in mesh.section(plane_origin=middle, plane_normal=way).discrete:
+        spoke = loop[:-1] - middle
+        after = np.roll(spoke, -1, axis=0)
+        twice = np.cross(spoke, after) @ way
+        turned = np.arctan2(twice, (spoke * after).sum(axis=1)).sum()
+        if abs(abs(turned) - 2 * np.pi) < 1e-3:
+            areas.append(0.5 * abs(twice.sum()))
+    return 2 * np.sqrt(min(areas) / np.pi)
+
+
+SLANTED = (np.sin(np.radians(15)), 0, np.cos(np.radians(15)))
+
+
+@pytest.mark.costly_cases("BCCZ")
+@pytest.mark.parametrize(
+    ("cell", "up", "angles"),
+    [("BCCZ", (0, 0, 1), {35, 90}), ("Box", SLANTED, {0, 15, 75})],
+    ids=["BCCZ", "Box"],
+)
+def test_sections_of_the_finished_file_come_out_as_asked_for(cell, up, angles, tmp_path):
+    """At all five inclinations that were published; its facets alone take 0.1 micrometre."""
+    out = tmp_path / "part.stl"
+    part = volfrep.fill(samples.box((24, 24, 24)), cell=cell, cell_size=10, strut_radius=0.5,
+                        shell=1, compensate="LPBF-Ti64", build_direction=up)  # fmt: skip
+    part.save(out)
+    mesh, seen = trimesh.load(out), set()
+    for start, end in part.struts.nodes[part.struts.struts]:
+        middle, way = 0.55 * start + 0.45 * end, (end - start) / np.linalg.norm(end - start)
+        angle = np.degrees(np.arcsin(min(abs(way @ up), 1.0)))
+        if ((middle > 2.5) & (middle < 21.5)).all():
+            printed = diameter_of_section(mesh, middle, way) + published(angle)
+            assert printed == pytest.approx(1.0, abs=CLOSE)
+            seen.add(round(angle))
+    assert seen == angles
+
+
 @pytest.mark.slow
 def test_what_was_drawn_is_told_as_it_comes_out(tmp_path, capsys):
     solid, out = tmp_path / "solid.stl", tmp_path / "part.stl"

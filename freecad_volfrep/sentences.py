@@ -3,7 +3,7 @@
 
 The engine and what is stored know English only. A panel shows what they say through `localise`: it
 finds the pattern that a sentence was made of, and puts the figures into the pattern's translation.
-A sentence that is not listed stays English, and so does the report view, which can be searched for.
+The report view has them through `report_line`. A sentence that is not listed stays English.
 """
 
 from __future__ import annotations
@@ -81,6 +81,56 @@ SENTENCES = marked(
     "'{element}' has no middle: pick a vertex, edge or face.",
     "The expression '{expression}' of {name} has no value ({reason}): correct it.",
     "cells '{cell}' of {size} mm",
+    "values or the solid have changed since it was made",
+    "what it is made of has changed and is not recomputed yet",
+    "its present values cannot be computed",
+    # What results, checks and the report view say.
+    "{active} of {total} cells, {triangles} triangles, {mass} g in {seconds} s",
+    "A resolution of {given} is too coarse for struts of radius {radius} mm, which would not "
+    "have their volume: {facets} facets along a cell are made.",
+    "The lattice is {bodies} bodies that do not touch each other: only the part's skin holds "
+    "them together.",
+    "{removed} pieces that hang on nothing left out, {share} % of the lattice's volume: smaller"
+    " cells or another origin may join them, and so does a skin.",
+    "The void about {place} has room for {room} of its {wanted} drain holes: choose a smaller "
+    "diameter, or give their places.",
+    "Cancelled: other figures are those of the last finished check, if there was one.",
+    "Not enough memory: choose larger cells or a coarser deviation.",
+    "The engine failed with a {kind} ({error}), which is a defect of VOLFREP: please report it "
+    "with the traceback in the report view's log messages.",
+    "The Python that goes with this FreeCAD cannot run the engine by itself: runs are done one "
+    "after the other.",
+    "'{label}' is out of date: update it first.",
+    "'{label}' is out of date: recompute it first.",
+    "The mesh of '{label}' is out of date ({why}): recompute it for a present one.",
+    "'{label}' has no mesh to export: update it first.",
+    "'{label}' has no mesh to check: update it first.",
+    "'{label}' is not a lattice infill: choose one.",
+    "'{label}' is no solid: choose one.",
+    "'{label}' holds no lattice: set its Output to part.",
+    "There is no lattice infill: make one of a solid first.",
+    "There is no solid to print: choose one as Base.",
+    "There is nothing to look at: choose a lattice infill as Infill.",
+    "There is nothing to vary: choose a lattice infill as Infill.",
+    "An expression or another object says how '{label}' lies: turn that instead.",
+    "No coupon is chosen: tick at least one.",
+    "Choose limits, a printer whose struts are known, or both.",
+    "Struts are down to {thin} mm thick near {place}, and {process} wants {least} mm: enlarge "
+    "the radius.",
+    "Walls are down to {wall} mm thick in every cell, and {process} wants {least} mm: make them"
+    " thicker, or enlarge the cells of a skeleton.",
+    "Walls are only {gap} mm apart in every cell, and {process} wants {least} mm: they may fuse"
+    " or hold powder; make them thinner, or enlarge the cells.",
+    "Struts are only {gap} mm apart near {place}, and {process} wants {least} mm: they may fuse"
+    " or hold powder; enlarge the cells.",
+    "{share} % of the struts' length is less than {inclination} degrees above the build plate: "
+    "choose another build direction or cell, or count on sagging undersides.",
+    "Flat struts hang free over up to {length} mm near {place}, and {process} bridges {most} "
+    "mm: make the cells smaller or choose another build direction.",
+    "1 closed void holds {volume} mm3 of unused material: open each with a hole of {hole} mm or"
+    " more.",
+    "{count} closed voids hold {volume} mm3 of unused material: open each with a hole of {hole}"
+    " mm or more.",
     # Loads and Sizing, Design Study.
     "No load case is chosen: tick at least one.",
     "Least mass needs a limit: of stress, displacement, buckling, frequency.",
@@ -101,6 +151,16 @@ _NUMBERS = re.compile(r"[-+]?[\d,]*\.?\d+(e[-+]?\d+)?( \+- [\d.e-]+ %| g)?")
 def localise_cell(text: str) -> str:
     """The same of a table's cell, which may be a number."""
     return _localise_value(text)
+
+
+def report_line(label: str, sentence: str) -> str:
+    """A line of the report view about an object, in the user's language as far as it is known.
+
+    Args:
+        label: of the object.
+        sentence: of the engine or a document, in English.
+    """
+    return f"VOLFREP, {label}: {localise(sentence)}\n"
 
 
 def localise(text: str) -> str:

@@ -5,8 +5,8 @@
 marks one, for a table that is translated when it is shown. Both names are what ``make
 translations`` looks for. What varies is put in afterwards: ``translate(...).format(name=...)``.
 
-What is stored in documents and files is never translated, nor what the report view says of the
-engine, which a search for its words should find; panels show it by way of `sentences.localise`.
+What is stored in documents and files is never translated; panels and the report view show it by way
+of `sentences.localise`.
 """
 
 from __future__ import annotations

@@ -37,12 +37,12 @@ def tell_written(path: str) -> None:
 
 def tell_error(sentence: str) -> None:
     """Say what is wrong; FreeCAD shows it in the status bar and the report view."""
-    App.Console.PrintError(f"VOLFREP: {sentence}\n")
+    App.Console.PrintError(f"VOLFREP: {localise(sentence)}\n")
 
 
 def show_error(sentence: str) -> None:
     """Show one sentence in a box and wait until it is acknowledged."""
-    App.Console.PrintError(f"VOLFREP: {sentence}\n")
+    App.Console.PrintError(f"VOLFREP: {localise(sentence)}\n")
     QtWidgets.QMessageBox.warning(Gui.getMainWindow(), "VOLFREP", localise(sentence))
 
 

@@ -21,6 +21,7 @@ from driving import (
     picture,
     preferences_open,
     run_checks,
+    said,
     select,
     settle,
     slow,
@@ -112,6 +113,10 @@ SENTENCES = {
 }
 
 
+#: Of the line that the report view has of a mesh.
+LINES = {"Italian": " celle su 192, ", "German": " von 192 Zellen, ", "English": " of 192 cells, "}
+
+
 def refuse(language):
     """What the engine refuses, and the state of a mesh, in the user's words."""
     refused, made = SENTENCES[language]
@@ -121,6 +126,7 @@ def refuse(language):
     type_value("ShellThickness", "1 mm")
     click(panel_part("Compute"))
     check(f"{language}: the mesh", wait_until(lambda: told().startswith(made)), told())
+    check(f"{language}: the report view", LINES[language] in said(), said())
     figures = told().splitlines()[-1]
     check(f"{language}: and its figures", " g, " in figures and figures[0].isdigit(), figures)
 

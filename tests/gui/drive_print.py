@@ -352,6 +352,8 @@ def turn_a_part(doc, box):
     check("directions are told", wait_until(lambda: table.rowCount() > 1, 60))
     check("the best is picked", table.currentRow() == 1, table.currentRow())
     check("a solid has no print checks", not part("Check", "VolfrepOrientPanel").isVisible())
+    costs = [float(table.item(row, 0).text()) for row in range(1, table.rowCount())]
+    check("in the order of the cost that is shown", costs == sorted(costs), costs)
     picture("orient")
     table.selectRow(0)
     settle()

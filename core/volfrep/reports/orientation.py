@@ -61,7 +61,7 @@ class Orientation:
         height_mm: of the part.
         base_mm2: what lies on the plate.
         footprint_mm2: shadow of the part's convex hull on the plate.
-        cost: what they were compared by.
+        cost: what they are sorted by, of area, supports, height and base, to the fifth decimal.
     """
 
     up: tuple[float, float, float]
@@ -133,9 +133,10 @@ class Orientations(Shown):
         named = [("as it is", self.as_it_is)]
         named += [(f"{k}.", one) for k, one in enumerate(self.best, 1)]
         rows = [("directions", f"{self.tried:,} tried, below {self.inclination:g} degrees hangs")]
+        rows.append(("sorted by", "cost: overhang, supports, height, footprint off the plate"))
         for name, one in named:
             x, y, z = one.up
-            rows.append((name, f"up ({x:.4g}, {y:.4g}, {z:.4g}){_turn(one)}"))
+            rows.append((name, f"cost {one.cost:.5f}, up ({x:.4g}, {y:.4g}, {z:.4g}){_turn(one)}"))
             inside = f", {one.inside_mm2:,.4g} of it in closed rooms" * bool(one.inside_mm2)
             rows.append(
                 (
@@ -326,7 +327,7 @@ class _Judge:
             height_mm=high - low,
             base_mm2=base,
             footprint_mm2=footprint,
-            cost=cost + BASE * (1.0 - min(base / footprint, 1.0)),
+            cost=EQUAL * round((cost + BASE * (1.0 - min(base / footprint, 1.0))) / EQUAL),
         )
 
 
@@ -378,7 +379,7 @@ def _apart(ranked: Floats, count: int) -> list[Floats]:
 def _rank(one: Orientation) -> tuple[Any, ...]:
     """What they are sorted by: cost, then height, base, how little it turns, place."""
     return (
-        round(one.cost / EQUAL), round(one.height_mm, 4), -round(one.base_mm2, 3),
+        one.cost, round(one.height_mm, 4), -round(one.base_mm2, 3),
         round(one.angle, 3), one.up,
     )  # fmt: skip
 

@@ -11,6 +11,7 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
 from freecad_volfrep.features.jobs.progress import job_title, run_job
+from freecad_volfrep.sentences import report_line
 from volfrep.util.errors import VolfrepError
 
 if TYPE_CHECKING:
@@ -176,4 +177,4 @@ def expected_volume(obj: App.DocumentObject, made_of: Ingredients) -> float | No
 def warn(obj: App.DocumentObject, sentences: tuple[str, ...]) -> None:
     """Say something about an object in the report view."""
     for sentence in sentences:
-        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
+        App.Console.PrintWarning(report_line(obj.Label, sentence))

@@ -12,6 +12,7 @@ from pathlib import Path
 import FreeCAD as App
 
 from freecad_volfrep.features.jobs.progress import job_title, run_job
+from freecad_volfrep.sentences import report_line
 from volfrep.util.errors import VolfrepError
 
 from .exact import infill_made_of
@@ -72,6 +73,6 @@ def export_for_printer(
     )
     write_mesh(placed(made.mesh, place), path)
     for sentence in made.notes:
-        App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {sentence}\n")
+        App.Console.PrintMessage(report_line(obj.Label, sentence))
     notes: tuple[str, ...] = made.notes
     return notes

@@ -21,6 +21,7 @@ from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.saved_names import saved_module
+from freecad_volfrep.sentences import report_line
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 from volfrep.util.errors import Cancelled, VolfrepError
 
@@ -138,11 +139,11 @@ class SlicerInfill:
             self._run(obj)
         except VolfrepError as error:
             self.state, obj.Status = State.FAILED, str(error)
-            App.Console.PrintError(f"VOLFREP, {obj.Label}: {error}\n")
+            App.Console.PrintError(report_line(obj.Label, str(error)))
             raise
         except Cancelled:
             self.state, obj.Status = State.CANCELLED, CANCELLED
-            App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {CANCELLED}\n")
+            App.Console.PrintMessage(report_line(obj.Label, CANCELLED))
         else:
             self.state, obj.Status = State.IDLE, UP_TO_DATE
 
@@ -389,4 +390,4 @@ def _write_results(obj: App.DocumentObject, made: Bands) -> None:
     set_value(obj, "Mass", made.mass)
     obj.EvenDensity = made.mean_density
     said = "; ".join(f"{name}: {value}" for name, value in made.rows())
-    App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {said}\n")
+    App.Console.PrintMessage(report_line(obj.Label, said))

@@ -17,6 +17,7 @@ import FreeCAD as App
 from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
 from freecad_volfrep.features.infill.materials import for_solver
 from freecad_volfrep.features.jobs.progress import job_title, run_job
+from freecad_volfrep.sentences import report_line
 from volfrep.output.form import AXES, BEAMS, EXACT, MESH, TETRAHEDRA, Form, files, find_form
 from volfrep.util.errors import VolfrepError
 from volfrep.util.files import beside
@@ -316,5 +317,5 @@ def tetrahedra_of(obj: App.DocumentObject) -> TetrahedralMesh:
     title = job_title("Tetrahedra of {label}", obj)
     filled: TetrahedralMesh = run_job(title, Call(made, (mesh_in_document(obj),)))
     for sentence in filled.warnings:
-        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
+        App.Console.PrintWarning(report_line(obj.Label, sentence))
     return filled

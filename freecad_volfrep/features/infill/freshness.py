@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 import numpy as np
 
+from freecad_volfrep.sentences import report_line
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 from volfrep.util.content import digest_of
 from volfrep.util.errors import VolfrepError
@@ -91,7 +92,7 @@ def tell_stale(obj: App.DocumentObject) -> tuple[str, ...]:
     if not why:
         return ()
     sentence = f"The mesh of '{obj.Label}' is out of date ({why}): recompute it for a present one."
-    App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
+    App.Console.PrintWarning(report_line(obj.Label, sentence))
     return (sentence,)
 
 

@@ -10,6 +10,7 @@ import FreeCAD as App
 
 from freecad_volfrep.features.jobs.job import Job
 from freecad_volfrep.features.properties.quantities import is_driven, number_of, set_value
+from freecad_volfrep.sentences import report_line
 from volfrep.design.parameters.table import BY_NAME
 
 from .properties import PROPERTIES, RESULT
@@ -123,8 +124,9 @@ def _write_results(obj: App.DocumentObject, report: Report) -> None:
     for name, value in values.items():
         set_value(obj, name, value)
     for sentence in report.warnings:
-        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
-    App.Console.PrintMessage(
-        f"VOLFREP, {obj.Label}: {report.cells_active} of {report.cells_total} cells, "
-        f"{report.triangles} triangles, {report.mass_g:.4g} g in {obj.Seconds:.1f} s\n"
+        App.Console.PrintWarning(report_line(obj.Label, sentence))
+    made = (
+        f"{report.cells_active} of {report.cells_total} cells, "
+        f"{report.triangles} triangles, {report.mass_g:.4g} g in {obj.Seconds:.1f} s"
     )
+    App.Console.PrintMessage(report_line(obj.Label, made))

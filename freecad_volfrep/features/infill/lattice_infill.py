@@ -16,6 +16,7 @@ from freecad_volfrep.features.jobs.screen import attach_view, is_asked_by_user, 
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.preferences import largest_automatic, triangles_drawn
 from freecad_volfrep.saved_names import saved_module
+from freecad_volfrep.sentences import report_line
 from volfrep.util.errors import Cancelled, VolfrepError
 
 from .applicable import CONTROLS, show_applicable
@@ -229,7 +230,7 @@ class LatticeInfill:
             refuse_spoiled(obj)
         except VolfrepError as error:
             obj.Status = str(error)
-            App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {error}\n")
+            App.Console.PrintWarning(report_line(obj.Label, str(error)))
         attach_view(obj)
 
     def dumps(self) -> None:
@@ -293,7 +294,7 @@ class LatticeInfill:
             self.job.go(State.CANCELLED if is_cancelled else State.FAILED)
         if is_cancelled:
             obj.Status = CANCELLED if obj.Mesh.CountFacets else CANCELLED_FIRST
-            App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {obj.Status}\n")
+            App.Console.PrintMessage(report_line(obj.Label, obj.Status))
             return
         if isinstance(error, VolfrepError):
             message = str(error)
@@ -307,7 +308,7 @@ class LatticeInfill:
                 "VOLFREP: please report it with the traceback in the report view's log messages."
             )
         obj.Status = message
-        App.Console.PrintError(f"VOLFREP, {obj.Label}: {message}\n")
+        App.Console.PrintError(report_line(obj.Label, message))
         raise VolfrepError(message) from error
 
     def _job_of(self, obj: App.DocumentObject, forced: bool) -> Job:

@@ -16,6 +16,7 @@ from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.saved_names import saved_module
+from freecad_volfrep.sentences import report_line
 from volfrep.util.errors import Cancelled, VolfrepError
 
 if TYPE_CHECKING:
@@ -76,12 +77,12 @@ class PrintCheck:
             self._run(obj)
         except VolfrepError as error:
             self.state = State.FAILED
-            App.Console.PrintError(f"VOLFREP, {obj.Label}: {error}\n")
+            App.Console.PrintError(report_line(obj.Label, str(error)))
             raise
         except Cancelled:
             self.state = State.CANCELLED
             obj.Text = CANCELLED
-            App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {CANCELLED}\n")
+            App.Console.PrintMessage(report_line(obj.Label, CANCELLED))
         else:
             self.state = State.IDLE
 
@@ -200,4 +201,4 @@ def _write_results(obj: App.DocumentObject, report: PrintReport) -> None:
     obj.Text = report.to_text()
     obj.Report = report.to_json()
     for sentence in report.findings:
-        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
+        App.Console.PrintWarning(report_line(obj.Label, sentence))

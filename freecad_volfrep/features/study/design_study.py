@@ -24,6 +24,7 @@ from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.saved_names import saved_module
+from freecad_volfrep.sentences import report_line
 from freecad_volfrep.translation import translate
 from volfrep.design.cells import LIBRARY
 from volfrep.design.parameters import BY_NAME, PARAMETERS, Parameter
@@ -327,7 +328,7 @@ def run_study(obj: App.DocumentObject) -> bool:
     study, folder = study_of(obj), _folder(obj)
     python = _python(python_executable(), engine_folders())
     if python is None:
-        App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {IN_TURN}\n")
+        App.Console.PrintMessage(report_line(obj.Label, IN_TURN))
     try:
         made = run_job(
             job_title("Studying {label}", obj.Infill),
@@ -343,7 +344,7 @@ def run_study(obj: App.DocumentObject) -> bool:
         )
     except Cancelled:
         obj.Status = CANCELLED
-        App.Console.PrintMessage(f"VOLFREP, {obj.Label}: {CANCELLED}\n")
+        App.Console.PrintMessage(report_line(obj.Label, CANCELLED))
         return False
     failed = dict.fromkeys(text for text in made.table.column("error") if text)
     obj.Refused = [f"{count} x {text}" for text, count in made.refused.items()]
@@ -361,7 +362,7 @@ def run_study(obj: App.DocumentObject) -> bool:
     )
     obj.Status = f"{obj.Designs} designs of {obj.Infill.Label}"
     for sentence in obj.Refused:
-        App.Console.PrintWarning(f"VOLFREP, {obj.Label}: {sentence}\n")
+        App.Console.PrintWarning(report_line(obj.Label, sentence))
     return True
 
 

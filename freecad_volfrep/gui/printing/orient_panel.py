@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
 _CONTEXT = "VolfrepOrient"
 HEADS = (
+    QT_TRANSLATE_NOOP("VolfrepOrient", "cost"),
     QT_TRANSLATE_NOOP("VolfrepOrient", "overhang"),
     QT_TRANSLATE_NOOP("VolfrepOrient", "height"),
 )
@@ -129,6 +130,13 @@ class OrientPanel:
         self._inclination.valueChanged.connect(lambda _: self.find())
         line.addWidget(self._inclination, 1)
         column.addLayout(line)
+        order = QtWidgets.QLabel(
+            translate(
+                _CONTEXT, "Least cost first: overhang, supports, height, footprint off the plate"
+            )
+        )
+        fits_any_width(order)
+        column.addWidget(order)
         self._table = QtWidgets.QTableWidget(0, len(HEADS))
         self._table.setObjectName("Directions")
         self._table.setHorizontalHeaderLabels([translate(_CONTEXT, head) for head in HEADS])
@@ -172,7 +180,7 @@ class OrientPanel:
         self._table.setRowCount(len(rows))
         for number, one in enumerate(rows):
             over, height = figure(one.overhang_mm2, 3), figure(one.height_mm, 3)
-            texts = (f"{over} mm\u00b2", f"{height} mm")
+            texts = (spoken(f"{one.cost:.5f}"), f"{over} mm\u00b2", f"{height} mm")
             for place, text in enumerate(texts):
                 self._table.setItem(number, place, QtWidgets.QTableWidgetItem(text))
         name = translate(_CONTEXT, "now")

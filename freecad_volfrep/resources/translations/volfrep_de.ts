@@ -2824,6 +2824,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
   <context>
     <name>VolfrepOrient</name>
     <message>
+      <source>Least cost first: overhang, supports, height, footprint off the plate</source>
+      <translation>Geringste Kosten zuerst: Überhang, Stützen, Höhe, Grundfläche neben der Platte</translation>
+    </message>
+    <message>
       <source>Needs support below</source>
       <translation>Braucht Stützen unter</translation>
     </message>
@@ -2842,6 +2846,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Turned: z is up, and it stands on z = 0.</source>
       <translation>Gedreht: z ist oben, und es steht auf z = 0.</translation>
+    </message>
+    <message>
+      <source>cost</source>
+      <translation>Kosten</translation>
     </message>
     <message>
       <source>height</source>
@@ -3807,8 +3815,36 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>'{element}' ist keine Fläche des Teils: Flächen des Teils oder einen anderen Körper wählen.</translation>
     </message>
     <message>
+      <source>'{label}' has no mesh to check: update it first.</source>
+      <translation>'{label}' hat kein Netz zum Prüfen: zuerst aktualisieren.</translation>
+    </message>
+    <message>
+      <source>'{label}' has no mesh to export: update it first.</source>
+      <translation>'{label}' hat kein Netz zum Exportieren: zuerst aktualisieren.</translation>
+    </message>
+    <message>
+      <source>'{label}' holds no lattice: set its Output to part.</source>
+      <translation>'{label}' enthält kein Gitter: sein Ergebnis (Output) auf Part setzen.</translation>
+    </message>
+    <message>
       <source>'{label}' is a {shape} without a solid: choose a solid, or close it and convert it to one (Part &gt; Convert to solid).</source>
       <translation>'{label}' hat Flächen ({shape}), aber keinen Körper: einen Körper wählen, oder sie schließen und umwandeln (Part &gt; In Festkörper umwandeln).</translation>
+    </message>
+    <message>
+      <source>'{label}' is no solid: choose one.</source>
+      <translation>'{label}' ist kein Festkörper: einen wählen.</translation>
+    </message>
+    <message>
+      <source>'{label}' is not a lattice infill: choose one.</source>
+      <translation>'{label}' ist keine Gitterfüllung: eine wählen.</translation>
+    </message>
+    <message>
+      <source>'{label}' is out of date: recompute it first.</source>
+      <translation>'{label}' ist nicht aktuell: zuerst neu berechnen.</translation>
+    </message>
+    <message>
+      <source>'{label}' is out of date: update it first.</source>
+      <translation>'{label}' ist nicht aktuell: zuerst aktualisieren.</translation>
     </message>
     <message>
       <source>'{label}' refers to no face, edge or vertex: choose some of the part's.</source>
@@ -3819,12 +3855,28 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>0: in dieser Richtung trägt die Zelle nichts</translation>
     </message>
     <message>
+      <source>1 closed void holds {volume} mm3 of unused material: open each with a hole of {hole} mm or more.</source>
+      <translation>1 geschlossener Hohlraum hält {volume} mm3 ungenutztes Material: ihn mit einem Loch von {hole} mm oder mehr öffnen.</translation>
+    </message>
+    <message>
       <source>A network along faces has none: pick one or two of the solid as NetworkFaces.</source>
       <translation>Ein Netzwerk entlang Flächen hat keine: eine oder zwei des Körpers als NetworkFaces wählen.</translation>
     </message>
     <message>
+      <source>A resolution of {given} is too coarse for struts of radius {radius} mm, which would not have their volume: {facets} facets along a cell are made.</source>
+      <translation>Eine Auflösung von {given} ist zu grob für Streben mit Radius {radius} mm, die nicht ihr Volumen hätten: Es werden {facets} Facetten je Zelle erzeugt.</translation>
+    </message>
+    <message>
       <source>A stiffness that drives the radius is that of a material: choose one for the infill.</source>
       <translation>Eine Steifigkeit, die den Radius bestimmt, ist die eines Werkstoffs: einen für die Füllung wählen.</translation>
+    </message>
+    <message>
+      <source>An expression or another object says how '{label}' lies: turn that instead.</source>
+      <translation>Ein Ausdruck oder ein anderes Objekt bestimmt die Lage von '{label}': stattdessen das drehen.</translation>
+    </message>
+    <message>
+      <source>Cancelled: other figures are those of the last finished check, if there was one.</source>
+      <translation>Abgebrochen: Die anderen Werte sind die der letzten beendeten Prüfung, falls es eine gab.</translation>
     </message>
     <message>
       <source>Cancelled: the bands are those of the last recompute, if there was one.</source>
@@ -3851,12 +3903,20 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Zellen von {size} mm sind zu groß für Streben vom Radius {radius} mm: die Zellen {largest} mm oder kleiner machen, oder die Streben {thinnest} mm oder dicker.</translation>
     </message>
     <message>
+      <source>Choose limits, a printer whose struts are known, or both.</source>
+      <translation>Grenzen, einen Drucker mit bekannten Streben oder beides wählen.</translation>
+    </message>
+    <message>
       <source>Every strut has a free end or is too thin, so that none is left: keep dangling and thin struts, reduce the cell size or choose the activation 'touching'.</source>
       <translation>Jede Strebe hat ein freies Ende oder ist zu dünn, so dass keine bleibt: lose und dünne Streben behalten, die Zellgröße verringern oder alle berührenden Zellen behalten.</translation>
     </message>
     <message>
       <source>Failed: see the report view</source>
       <translation>Fehlgeschlagen: siehe die Berichtsansicht</translation>
+    </message>
+    <message>
+      <source>Flat struts hang free over up to {length} mm near {place}, and {process} bridges {most} mm: make the cells smaller or choose another build direction.</source>
+      <translation>Flache Streben hängen nahe {place} über bis zu {length} mm frei, und {process} überbrückt {most} mm: die Zellen verkleinern oder eine andere Baurichtung wählen.</translation>
     </message>
     <message>
       <source>Least mass needs a limit: of stress, displacement, buckling, frequency.</source>
@@ -3873,6 +3933,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>No cell of {size} mm lies wholly inside the domain: reduce the cell size or choose the activation 'touching'.</source>
       <translation>Keine Zelle von {size} mm liegt ganz im Inneren: die Zellgröße verringern oder alle berührenden Zellen behalten.</translation>
+    </message>
+    <message>
+      <source>No coupon is chosen: tick at least one.</source>
+      <translation>Es ist keine Probe gewählt: mindestens eine ankreuzen.</translation>
     </message>
     <message>
       <source>No load case is chosen: tick at least one.</source>
@@ -3901,6 +3965,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>No wall lies inside the skin: reduce the skin thickness.</source>
       <translation>Keine Wand liegt innerhalb der Haut: die Hautdicke verringern.</translation>
+    </message>
+    <message>
+      <source>Not enough memory: choose larger cells or a coarser deviation.</source>
+      <translation>Nicht genug Speicher: größere Zellen oder eine gröbere Abweichung wählen.</translation>
     </message>
     <message>
       <source>Not run yet</source>
@@ -3935,6 +4003,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Von einem FreeCAD ohne VOLFREP gespeichert: neu berechnen, dann wird übernommen, was dort geändert wurde</translation>
     </message>
     <message>
+      <source>Struts are down to {thin} mm thick near {place}, and {process} wants {least} mm: enlarge the radius.</source>
+      <translation>Streben sind nahe {place} nur {thin} mm dick, und {process} verlangt {least} mm: den Radius vergrößern.</translation>
+    </message>
+    <message>
+      <source>Struts are only {gap} mm apart near {place}, and {process} wants {least} mm: they may fuse or hold powder; enlarge the cells.</source>
+      <translation>Streben sind nahe {place} nur {gap} mm voneinander entfernt, und {process} verlangt {least} mm: Sie können verschmelzen oder Pulver halten; die Zellen vergrößern.</translation>
+    </message>
+    <message>
       <source>Struts of radius {radius} mm are too thick for a cell of {size} mm: keep the radius below {limit} mm or enlarge the cell.</source>
       <translation>Streben vom Radius {radius} mm sind zu dick für eine Zelle von {size} mm: den Radius unter {limit} mm halten oder die Zelle vergrößern.</translation>
     </message>
@@ -3943,8 +4019,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Streben von {diameter} mm sind dünner, als {process} druckt: mindestens {least} mm.</translation>
     </message>
     <message>
+      <source>The Python that goes with this FreeCAD cannot run the engine by itself: runs are done one after the other.</source>
+      <translation>Das Python dieses FreeCAD kann den Rechenkern nicht allein ausführen: Die Läufe folgen aufeinander.</translation>
+    </message>
+    <message>
       <source>The cell type Custom needs a cell: choose its .json file as CellFile.</source>
       <translation>Der Zelltyp Custom braucht eine Zelle: ihre .json-Datei als CellFile wählen.</translation>
+    </message>
+    <message>
+      <source>The engine failed with a {kind} ({error}), which is a defect of VOLFREP: please report it with the traceback in the report view's log messages.</source>
+      <translation>Der Rechenkern endete mit einem {kind} ({error}), einem Fehler von VOLFREP: bitte mit dem Traceback aus den Log-Meldungen der Ausgabeansicht melden.</translation>
     </message>
     <message>
       <source>The expression '{expression}' of {name} has no value ({reason}): correct it.</source>
@@ -3955,8 +4039,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Die Füllung dieser Studie gibt es nicht mehr: eine andere als Infill wählen.</translation>
     </message>
     <message>
+      <source>The lattice is {bodies} bodies that do not touch each other: only the part's skin holds them together.</source>
+      <translation>Das Gitter besteht aus {bodies} Körpern, die sich nicht berühren: Nur die Haut des Teils hält sie zusammen.</translation>
+    </message>
+    <message>
       <source>The material Custom needs a file: choose its .toml or .json file as MaterialFile.</source>
       <translation>Der Werkstoff Custom braucht eine Datei: seine .toml- oder .json-Datei als MaterialFile wählen.</translation>
+    </message>
+    <message>
+      <source>The mesh of '{label}' is out of date ({why}): recompute it for a present one.</source>
+      <translation>Das Netz von '{label}' ist nicht aktuell ({why}): neu berechnen, um ein aktuelles zu haben.</translation>
     </message>
     <message>
       <source>The part is nowhere thicker than two walls of {shell} mm, so that nothing is left to fill: reduce the skin thickness.</source>
@@ -3967,12 +4059,40 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Die Haut und was massiv bleibt, lassen nichts zu füllen: die Hautdicke verringern, die von Flächen mit eigener, oder was massiv bleibt.</translation>
     </message>
     <message>
+      <source>The void about {place} has room for {room} of its {wanted} drain holes: choose a smaller diameter, or give their places.</source>
+      <translation>Der Hohlraum um {place} hat Platz für {room} seiner {wanted} Entleerungslöcher: einen kleineren Durchmesser wählen oder ihre Orte angeben.</translation>
+    </message>
+    <message>
+      <source>There is no lattice infill: make one of a solid first.</source>
+      <translation>Es gibt keine Gitterfüllung: zuerst eine aus einem Festkörper erzeugen.</translation>
+    </message>
+    <message>
       <source>There is no solid to fill: choose one as Base.</source>
       <translation>Es gibt keinen Körper zu füllen: einen als Base wählen.</translation>
     </message>
     <message>
+      <source>There is no solid to print: choose one as Base.</source>
+      <translation>Es gibt keinen Festkörper zum Drucken: einen als Base wählen.</translation>
+    </message>
+    <message>
+      <source>There is nothing to look at: choose a lattice infill as Infill.</source>
+      <translation>Es gibt nichts zu prüfen: eine Gitterfüllung als Infill wählen.</translation>
+    </message>
+    <message>
+      <source>There is nothing to vary: choose a lattice infill as Infill.</source>
+      <translation>Es gibt nichts zu variieren: eine Gitterfüllung als Infill wählen.</translation>
+    </message>
+    <message>
       <source>Up to date</source>
       <translation>Aktuell</translation>
+    </message>
+    <message>
+      <source>Walls are down to {wall} mm thick in every cell, and {process} wants {least} mm: make them thicker, or enlarge the cells of a skeleton.</source>
+      <translation>Wände sind in jeder Zelle nur {wall} mm dick, und {process} verlangt {least} mm: sie dicker machen oder die Zellen eines Skeletts vergrößern.</translation>
+    </message>
+    <message>
+      <source>Walls are only {gap} mm apart in every cell, and {process} wants {least} mm: they may fuse or hold powder; make them thinner, or enlarge the cells.</source>
+      <translation>Wände sind in jeder Zelle nur {gap} mm voneinander entfernt, und {process} verlangt {least} mm: Sie können verschmelzen oder Pulver halten; sie dünner machen oder die Zellen vergrößern.</translation>
     </message>
     <message>
       <source>Walls of {thickness} mm are too thick for a cell of {size} mm: reduce the thickness or enlarge the cell.</source>
@@ -3983,8 +4103,28 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Zellen '{cell}' von {size} mm</translation>
     </message>
     <message>
+      <source>its present values cannot be computed</source>
+      <translation>seine jetzigen Werte lassen sich nicht berechnen</translation>
+    </message>
+    <message>
+      <source>values or the solid have changed since it was made</source>
+      <translation>Werte oder der Körper haben sich geändert, seit es gemacht wurde</translation>
+    </message>
+    <message>
+      <source>what it is made of has changed and is not recomputed yet</source>
+      <translation>woraus es gemacht ist, hat sich geändert und ist noch nicht neu berechnet</translation>
+    </message>
+    <message>
+      <source>{active} of {total} cells, {triangles} triangles, {mass} g in {seconds} s</source>
+      <translation>{active} von {total} Zellen, {triangles} Dreiecke, {mass} g in {seconds} s</translation>
+    </message>
+    <message>
       <source>{count} cells are too many to be shown as lines: enlarge the cells.</source>
       <translation>{count} Zellen sind zu viele, um als Linien gezeigt zu werden: die Zellen vergrößern.</translation>
+    </message>
+    <message>
+      <source>{count} closed voids hold {volume} mm3 of unused material: open each with a hole of {hole} mm or more.</source>
+      <translation>{count} geschlossene Hohlräume halten {volume} mm3 ungenutztes Material: jeden mit einem Loch von {hole} mm oder mehr öffnen.</translation>
     </message>
     <message>
       <source>{designs} designs of {infill}</source>
@@ -4009,6 +4149,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>{name} has no values: write them as 6, 8, 10 or as 6 to 10 in 5.</source>
       <translation>{name} hat keine Werte: als 6, 8, 10 oder als 6 to 10 in 5 schreiben.</translation>
+    </message>
+    <message>
+      <source>{removed} pieces that hang on nothing left out, {share} % of the lattice's volume: smaller cells or another origin may join them, and so does a skin.</source>
+      <translation>{removed} Stücke, die an nichts hängen, sind weggelassen, {share} % des Gittervolumens: Kleinere Zellen oder ein anderer Ursprung verbinden sie vielleicht, eine Haut sicher.</translation>
+    </message>
+    <message>
+      <source>{share} % of the struts' length is less than {inclination} degrees above the build plate: choose another build direction or cell, or count on sagging undersides.</source>
+      <translation>{share} % der Strebenlänge liegt flacher als {inclination} Grad zur Bauplatte: eine andere Baurichtung oder Zelle wählen oder mit durchhängenden Unterseiten rechnen.</translation>
     </message>
     <message>
       <source>{solid} has no material in FreeCAD: give it one, or choose another for the infill.</source>

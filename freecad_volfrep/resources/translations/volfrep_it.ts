@@ -2824,6 +2824,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
   <context>
     <name>VolfrepOrient</name>
     <message>
+      <source>Least cost first: overhang, supports, height, footprint off the plate</source>
+      <translation>Prima il costo minore: sbalzo, supporti, altezza, impronta non sul piano</translation>
+    </message>
+    <message>
       <source>Needs support below</source>
       <translation>Richiede supporti sotto</translation>
     </message>
@@ -2844,6 +2848,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Ruotato: z è in alto, e poggia su z = 0.</translation>
     </message>
     <message>
+      <source>cost</source>
+      <translation>costo</translation>
+    </message>
+    <message>
       <source>height</source>
       <translation>altezza</translation>
     </message>
@@ -2853,7 +2861,7 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     </message>
     <message>
       <source>overhang</source>
-      <translation>sporgenza</translation>
+      <translation>sbalzo</translation>
     </message>
     <message>
       <source>up: {up}
@@ -3807,8 +3815,36 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>'{element}' non è una faccia del pezzo: scegliere facce del pezzo o un altro solido.</translation>
     </message>
     <message>
+      <source>'{label}' has no mesh to check: update it first.</source>
+      <translation>'{label}' non ha una mesh da verificare: aggiornarlo prima.</translation>
+    </message>
+    <message>
+      <source>'{label}' has no mesh to export: update it first.</source>
+      <translation>'{label}' non ha una mesh da esportare: aggiornarlo prima.</translation>
+    </message>
+    <message>
+      <source>'{label}' holds no lattice: set its Output to part.</source>
+      <translation>'{label}' non contiene un reticolo: impostare il suo Risultato (Output) su Part.</translation>
+    </message>
+    <message>
       <source>'{label}' is a {shape} without a solid: choose a solid, or close it and convert it to one (Part &gt; Convert to solid).</source>
       <translation>'{label}' ha facce ({shape}) ma nessun solido: scegliere un solido, oppure chiuderle e convertirle (Part &gt; Converti in solido).</translation>
+    </message>
+    <message>
+      <source>'{label}' is no solid: choose one.</source>
+      <translation>'{label}' non è un solido: sceglierne uno.</translation>
+    </message>
+    <message>
+      <source>'{label}' is not a lattice infill: choose one.</source>
+      <translation>'{label}' non è un riempimento reticolare: sceglierne uno.</translation>
+    </message>
+    <message>
+      <source>'{label}' is out of date: recompute it first.</source>
+      <translation>'{label}' non è aggiornato: ricalcolarlo prima.</translation>
+    </message>
+    <message>
+      <source>'{label}' is out of date: update it first.</source>
+      <translation>'{label}' non è aggiornato: aggiornarlo prima.</translation>
     </message>
     <message>
       <source>'{label}' refers to no face, edge or vertex: choose some of the part's.</source>
@@ -3819,12 +3855,28 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>0: in quella direzione non porta nulla</translation>
     </message>
     <message>
+      <source>1 closed void holds {volume} mm3 of unused material: open each with a hole of {hole} mm or more.</source>
+      <translation>1 vuoto chiuso contiene {volume} mm3 di materiale inutilizzato: aprirlo con un foro di {hole} mm o più.</translation>
+    </message>
+    <message>
       <source>A network along faces has none: pick one or two of the solid as NetworkFaces.</source>
       <translation>Una rete lungo facce non ne ha: scegliere una o due facce del solido come NetworkFaces.</translation>
     </message>
     <message>
+      <source>A resolution of {given} is too coarse for struts of radius {radius} mm, which would not have their volume: {facets} facets along a cell are made.</source>
+      <translation>Una risoluzione di {given} è troppo grossolana per aste di raggio {radius} mm, che non avrebbero il loro volume: si generano {facets} faccette lungo una cella.</translation>
+    </message>
+    <message>
       <source>A stiffness that drives the radius is that of a material: choose one for the infill.</source>
       <translation>Una rigidezza che determina il raggio è quella di un materiale: sceglierne uno per il riempimento.</translation>
+    </message>
+    <message>
+      <source>An expression or another object says how '{label}' lies: turn that instead.</source>
+      <translation>Un'espressione o un altro oggetto dice come è disposto '{label}': ruotare quello.</translation>
+    </message>
+    <message>
+      <source>Cancelled: other figures are those of the last finished check, if there was one.</source>
+      <translation>Annullato: gli altri valori sono quelli dell'ultima verifica terminata, se ce n'è stata una.</translation>
     </message>
     <message>
       <source>Cancelled: the bands are those of the last recompute, if there was one.</source>
@@ -3851,12 +3903,20 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Le celle di {size} mm sono troppo grandi per aste di raggio {radius} mm: fare le celle di {largest} mm o meno, o le aste di {thinnest} mm o più.</translation>
     </message>
     <message>
+      <source>Choose limits, a printer whose struts are known, or both.</source>
+      <translation>Scegliere dei limiti, una stampante di cui si conoscono le aste, o entrambi.</translation>
+    </message>
+    <message>
       <source>Every strut has a free end or is too thin, so that none is left: keep dangling and thin struts, reduce the cell size or choose the activation 'touching'.</source>
       <translation>Ogni asta ha un'estremità libera o è troppo sottile, e non ne resta nessuna: tenere le aste libere e sottili, ridurre la dimensione delle celle o tenere tutte le celle che toccano il pezzo.</translation>
     </message>
     <message>
       <source>Failed: see the report view</source>
       <translation>Non riuscito: vedere il report</translation>
+    </message>
+    <message>
+      <source>Flat struts hang free over up to {length} mm near {place}, and {process} bridges {most} mm: make the cells smaller or choose another build direction.</source>
+      <translation>Aste piane restano sospese fino a {length} mm vicino a {place}, e {process} fa ponti di {most} mm: rimpicciolire le celle o scegliere un'altra direzione di costruzione.</translation>
     </message>
     <message>
       <source>Least mass needs a limit: of stress, displacement, buckling, frequency.</source>
@@ -3873,6 +3933,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>No cell of {size} mm lies wholly inside the domain: reduce the cell size or choose the activation 'touching'.</source>
       <translation>Nessuna cella di {size} mm sta tutta all'interno: ridurre la dimensione delle celle o tenere tutte le celle che toccano il pezzo.</translation>
+    </message>
+    <message>
+      <source>No coupon is chosen: tick at least one.</source>
+      <translation>Non è scelto alcun provino: spuntarne almeno uno.</translation>
     </message>
     <message>
       <source>No load case is chosen: tick at least one.</source>
@@ -3901,6 +3965,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>No wall lies inside the skin: reduce the skin thickness.</source>
       <translation>Nessuna parete sta dentro il guscio: ridurre lo spessore del guscio.</translation>
+    </message>
+    <message>
+      <source>Not enough memory: choose larger cells or a coarser deviation.</source>
+      <translation>Memoria insufficiente: scegliere celle più grandi o uno scostamento più grossolano.</translation>
     </message>
     <message>
       <source>Not run yet</source>
@@ -3935,6 +4003,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Salvato da un FreeCAD senza VOLFREP: ricalcolare, e ciò che vi è stato cambiato viene seguito</translation>
     </message>
     <message>
+      <source>Struts are down to {thin} mm thick near {place}, and {process} wants {least} mm: enlarge the radius.</source>
+      <translation>Ci sono aste di soli {thin} mm di spessore vicino a {place}, e {process} richiede {least} mm: aumentare il raggio.</translation>
+    </message>
+    <message>
+      <source>Struts are only {gap} mm apart near {place}, and {process} wants {least} mm: they may fuse or hold powder; enlarge the cells.</source>
+      <translation>Le aste distano solo {gap} mm vicino a {place}, e {process} richiede {least} mm: possono fondersi o trattenere polvere; ingrandire le celle.</translation>
+    </message>
+    <message>
       <source>Struts of radius {radius} mm are too thick for a cell of {size} mm: keep the radius below {limit} mm or enlarge the cell.</source>
       <translation>Aste di raggio {radius} mm sono troppo spesse per una cella di {size} mm: tenere il raggio sotto {limit} mm o ingrandire la cella.</translation>
     </message>
@@ -3943,8 +4019,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Aste di {diameter} mm sono più sottili di quanto {process} stampi: almeno {least} mm.</translation>
     </message>
     <message>
+      <source>The Python that goes with this FreeCAD cannot run the engine by itself: runs are done one after the other.</source>
+      <translation>Il Python di questo FreeCAD non può eseguire il motore da solo: i calcoli si fanno uno dopo l'altro.</translation>
+    </message>
+    <message>
       <source>The cell type Custom needs a cell: choose its .json file as CellFile.</source>
       <translation>Il tipo di cella Custom richiede una cella: scegliere il suo file .json come CellFile.</translation>
+    </message>
+    <message>
+      <source>The engine failed with a {kind} ({error}), which is a defect of VOLFREP: please report it with the traceback in the report view's log messages.</source>
+      <translation>Il motore si è fermato con un {kind} ({error}), che è un difetto di VOLFREP: segnalarlo con il traceback che è nei messaggi di log del rapporto.</translation>
     </message>
     <message>
       <source>The expression '{expression}' of {name} has no value ({reason}): correct it.</source>
@@ -3955,8 +4039,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Il riempimento di questo studio non c'è più: sceglierne un altro come Infill.</translation>
     </message>
     <message>
+      <source>The lattice is {bodies} bodies that do not touch each other: only the part's skin holds them together.</source>
+      <translation>Il reticolo è fatto di {bodies} corpi che non si toccano: li tiene insieme solo il guscio del pezzo.</translation>
+    </message>
+    <message>
       <source>The material Custom needs a file: choose its .toml or .json file as MaterialFile.</source>
       <translation>Il materiale Custom richiede un file: scegliere il suo file .toml o .json come MaterialFile.</translation>
+    </message>
+    <message>
+      <source>The mesh of '{label}' is out of date ({why}): recompute it for a present one.</source>
+      <translation>La mesh di '{label}' non è aggiornata ({why}): ricalcolarla per averne una attuale.</translation>
     </message>
     <message>
       <source>The part is nowhere thicker than two walls of {shell} mm, so that nothing is left to fill: reduce the skin thickness.</source>
@@ -3967,12 +4059,40 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Il guscio e ciò che resta pieno non lasciano nulla da riempire: ridurre lo spessore del guscio, quello delle facce con uno proprio, o ciò che resta pieno.</translation>
     </message>
     <message>
+      <source>The void about {place} has room for {room} of its {wanted} drain holes: choose a smaller diameter, or give their places.</source>
+      <translation>Il vuoto intorno a {place} ha posto per {room} dei suoi {wanted} fori di scarico: scegliere un diametro minore, o indicarne i punti.</translation>
+    </message>
+    <message>
+      <source>There is no lattice infill: make one of a solid first.</source>
+      <translation>Non c'è alcun riempimento reticolare: crearne prima uno da un solido.</translation>
+    </message>
+    <message>
       <source>There is no solid to fill: choose one as Base.</source>
       <translation>Non c'è un solido da riempire: sceglierne uno come Base.</translation>
     </message>
     <message>
+      <source>There is no solid to print: choose one as Base.</source>
+      <translation>Non c'è un solido da stampare: sceglierne uno come Base.</translation>
+    </message>
+    <message>
+      <source>There is nothing to look at: choose a lattice infill as Infill.</source>
+      <translation>Non c'è nulla da verificare: scegliere un riempimento reticolare come Infill.</translation>
+    </message>
+    <message>
+      <source>There is nothing to vary: choose a lattice infill as Infill.</source>
+      <translation>Non c'è nulla da variare: scegliere un riempimento reticolare come Infill.</translation>
+    </message>
+    <message>
       <source>Up to date</source>
       <translation>Aggiornato</translation>
+    </message>
+    <message>
+      <source>Walls are down to {wall} mm thick in every cell, and {process} wants {least} mm: make them thicker, or enlarge the cells of a skeleton.</source>
+      <translation>Ci sono pareti di soli {wall} mm in ogni cella, e {process} richiede {least} mm: farle più spesse, o ingrandire le celle di uno scheletro.</translation>
+    </message>
+    <message>
+      <source>Walls are only {gap} mm apart in every cell, and {process} wants {least} mm: they may fuse or hold powder; make them thinner, or enlarge the cells.</source>
+      <translation>Le pareti distano solo {gap} mm in ogni cella, e {process} richiede {least} mm: possono fondersi o trattenere polvere; farle più sottili, o ingrandire le celle.</translation>
     </message>
     <message>
       <source>Walls of {thickness} mm are too thick for a cell of {size} mm: reduce the thickness or enlarge the cell.</source>
@@ -3983,8 +4103,28 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>celle '{cell}' di {size} mm</translation>
     </message>
     <message>
+      <source>its present values cannot be computed</source>
+      <translation>i suoi valori attuali non si possono calcolare</translation>
+    </message>
+    <message>
+      <source>values or the solid have changed since it was made</source>
+      <translation>i valori o il solido sono cambiati da quando è stata fatta</translation>
+    </message>
+    <message>
+      <source>what it is made of has changed and is not recomputed yet</source>
+      <translation>ciò di cui è fatta è cambiato e non è ancora ricalcolato</translation>
+    </message>
+    <message>
+      <source>{active} of {total} cells, {triangles} triangles, {mass} g in {seconds} s</source>
+      <translation>{active} celle su {total}, {triangles} triangoli, {mass} g in {seconds} s</translation>
+    </message>
+    <message>
       <source>{count} cells are too many to be shown as lines: enlarge the cells.</source>
       <translation>{count} celle sono troppe per essere mostrate come linee: ingrandire le celle.</translation>
+    </message>
+    <message>
+      <source>{count} closed voids hold {volume} mm3 of unused material: open each with a hole of {hole} mm or more.</source>
+      <translation>{count} vuoti chiusi contengono {volume} mm3 di materiale inutilizzato: aprire ciascuno con un foro di {hole} mm o più.</translation>
     </message>
     <message>
       <source>{designs} designs of {infill}</source>
@@ -4009,6 +4149,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>{name} has no values: write them as 6, 8, 10 or as 6 to 10 in 5.</source>
       <translation>{name} non ha valori: scriverli come 6, 8, 10 o come 6 to 10 in 5.</translation>
+    </message>
+    <message>
+      <source>{removed} pieces that hang on nothing left out, {share} % of the lattice's volume: smaller cells or another origin may join them, and so does a skin.</source>
+      <translation>Esclusi {removed} frammenti che non sono attaccati a nulla, {share} % del volume del reticolo: celle più piccole o un'altra origine possono unirli, e così un guscio.</translation>
+    </message>
+    <message>
+      <source>{share} % of the struts' length is less than {inclination} degrees above the build plate: choose another build direction or cell, or count on sagging undersides.</source>
+      <translation>Il {share} % della lunghezza delle aste è a meno di {inclination} gradi dal piano di stampa: scegliere un'altra direzione di costruzione o cella, o mettere in conto superfici inferiori cedevoli.</translation>
     </message>
     <message>
       <source>{solid} has no material in FreeCAD: give it one, or choose another for the infill.</source>

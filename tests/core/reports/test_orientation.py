@@ -61,6 +61,17 @@ def test_a_t_stands_on_its_head():
     assert found.as_it_is.support_mm3 == pytest.approx((30 * 30 - 8 * 8) * 40)
 
 
+def test_directions_are_told_in_the_order_of_the_cost_that_is_told():
+    """Of a ball on a foot overhang and cost rank them differently."""
+    foot = Manifold.cube((8.0, 8.0, 40.0)).rotate((0.0, 20.0, 0.0))
+    found = orient(as_mesh(Manifold.sphere(10.0, 24) + foot))
+    areas = [one.overhang_mm2 for one in found.best]
+    assert areas != sorted(areas)
+    told = [text for _, text in found.rows() if text.startswith("cost ")][1:]
+    assert len(told) == 5
+    assert told == sorted(told, key=lambda text: float(text.split()[1].strip(",")))
+
+
 def test_of_equal_directions_the_one_that_turns_least_is_taken():
     cube = orient(as_mesh(Manifold.cube((10.0, 10.0, 10.0))))
     assert cube.best[0].angle == 0.0

@@ -131,6 +131,27 @@ SENTENCES = marked(
     " more.",
     "{count} closed voids hold {volume} mm3 of unused material: open each with a hole of {hole}"
     " mm or more.",
+    # Rows of a print check.
+    "process",
+    "limits from",
+    "thinnest strut",
+    "thinnest wall",
+    "narrowest gap",
+    "largest ball that gets out",
+    "below {angle} degrees",
+    "longest of these",
+    "longest flat",
+    "inclinations",
+    "closed voids",
+    "surface",
+    "mass",
+    "findings",
+    "none",
+    "over {value} (limit {limit})",
+    "{value} (limit {limit})",
+    "{share} % of the struts' length, {area}",
+    "{count}, holding {volume} mm3",
+    "{classes} % from 0 to 90 degrees, by {step}",
     # Loads and Sizing, Design Study.
     "No load case is chosen: tick at least one.",
     "Least mass needs a limit: of stress, displacement, buckling, frequency.",
@@ -144,8 +165,8 @@ SENTENCES = marked(
     "{figure} of the solid's yield stress",
     "{figure} of the solid's",
 )  # fmt: skip
-#: A number as the engine writes it, with the error behind it.
-_NUMBERS = re.compile(r"[-+]?[\d,]*\.?\d+(e[-+]?\d+)?( \+- [\d.e-]+ %| g)?")
+#: A number as the engine writes it, with the error or the unit behind it.
+_NUMBERS = re.compile(r"[-+]?[\d,]*\.?\d+(e[-+]?\d+)?( \+- [\d.e-]+ %| g| mm[23]?)?")
 
 
 def localise_cell(text: str) -> str:
@@ -161,6 +182,18 @@ def report_line(label: str, sentence: str) -> str:
         sentence: of the engine or a document, in English.
     """
     return f"VOLFREP, {label}: {localise(sentence)}\n"
+
+
+def localise_rows(text: str) -> str:
+    """Lines of a name and a value, which blanks stand between, in the user's language.
+
+    Args:
+        text: of a report, in English.
+    """
+    rows = [re.split(" {2,}", line, maxsplit=1) for line in text.split("\n")]
+    said = [[_localise_value(cell) for cell in row] for row in rows]
+    width = max(len(row[0]) for row in said) + 2
+    return "\n".join(row[0].ljust(width) + "".join(row[1:]) for row in said)
 
 
 def localise(text: str) -> str:

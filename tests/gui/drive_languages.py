@@ -64,6 +64,14 @@ def cut_off(form):
             wraps = isinstance(widget, QtGui.QLabel) and widget.wordWrap()
             if widget.text() and not wraps and widget.width() < needed.width():
                 found.append(f"{widget.text()}: {widget.width()} of {needed.width()}")
+        elif isinstance(widget, QtGui.QComboBox) and widget.isVisible():
+            option = QtGui.QStyleOptionComboBox()
+            widget.initStyleOption(option)
+            field = QtGui.QStyle.SC_ComboBoxEditField
+            place = widget.style().subControlRect(QtGui.QStyle.CC_ComboBox, option, field, widget)
+            needed = widget.fontMetrics().boundingRect(widget.currentText()).width()
+            if place.width() < needed:
+                found.append(f"{widget.currentText()}: {place.width()} of {needed}")
         elif isinstance(widget, QtGui.QAbstractSpinBox) and widget.isVisible():
             line = widget.findChild(QtGui.QLineEdit)
             # Qt leaves two pixels at either side, FreeCAD a place for its sign.
@@ -115,6 +123,14 @@ SENTENCES = {
 
 #: Of the line that the report view has of a mesh.
 LINES = {"Italian": " celle su 192, ", "German": " von 192 Zellen, ", "English": " of 192 cells, "}
+
+
+#: Of what a print check finds.
+FOUND = {
+    "Italian": (("asta più sottile", "2 mm (limite 2 mm)"), ("massa", "11,99 g")),
+    "German": (("dünnste Strebe", "2 mm (Grenze 2 mm)"), ("Masse", "11,99 g")),
+    "English": (("thinnest strut", "2 mm (limit 2 mm)"), ("mass", "11.99 g")),
+}
 
 
 def refuse(language):
@@ -184,6 +200,16 @@ def for_the_printer(language):
     leave(QtGui.QDialogButtonBox.Cancel)
     obj = make_lattice_infill(doc, doc.Block, CellSize=10, Resolution=8)
     doc.recompute()
+    select(obj)
+    picture(f"language_{language}_9_result")
+    Gui.runCommand("VOLFREP_PrintCheck", 0)
+    wait_until(lambda: doc.getObject("PrintCheck") is not None)
+    text = said().splitlines()
+    for found in FOUND[language]:
+        is_told = any(line.startswith(found[0]) and found[1] in line for line in text)
+        check(f"{language}: what a print check finds: {found[1]}", is_told, text)
+    picture(f"language_{language}_9_print_check")
+    doc.removeObject("PrintCheck")
     select(obj)
     export = PrinterBox(obj)
     export.findChild(QtGui.QComboBox, "Service").setCurrentIndex(1)

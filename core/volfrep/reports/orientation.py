@@ -136,7 +136,7 @@ class Orientations(Shown):
         rows.append(("sorted by", "cost: overhang, supports, height, footprint off the plate"))
         for name, one in named:
             x, y, z = one.up
-            rows.append((name, f"cost {one.cost:.5f}, up ({x:.4g}, {y:.4g}, {z:.4g}){_turn(one)}"))
+            rows.append((name, f"cost {one.cost:.4f}, up ({x:.4g}, {y:.4g}, {z:.4g}){_turn(one)}"))
             inside = f", {one.inside_mm2:,.4g} of it in closed rooms" * bool(one.inside_mm2)
             rows.append(
                 (

@@ -130,7 +130,7 @@ class PrintReport:
         return [
             *rows,
             ("inclinations", f"{classes} % from 0 to 90 degrees, by {CLASS}"),
-            ("closed voids", f"{self.voids:,} with {self.void_volume_mm3:,.1f} mm3"),
+            ("closed voids", f"{self.voids:,}, holding {self.void_volume_mm3:,.1f} mm3"),
             ("surface", f"{self.area_mm2:,.1f} mm2"),
             ("mass", f"{self.mass_g:,.2f} g"),
             ("findings", f"{len(self.findings)}" if self.findings else "none"),

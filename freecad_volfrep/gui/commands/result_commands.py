@@ -16,6 +16,7 @@ from freecad_volfrep.gui.study.study_panel import open_study
 from freecad_volfrep.gui.undo import undo_step
 from freecad_volfrep.gui.windows.help_window import show_help
 from freecad_volfrep.gui.windows.report_window import show_report
+from freecad_volfrep.sentences import localise_rows
 from freecad_volfrep.translation import translate
 
 from .infill_commands import make_suitable_infill
@@ -34,7 +35,7 @@ def check_print(infill: App.DocumentObject) -> None:
         return
     if check.isValid():
         Gui.Selection.clearSelection()
-        App.Console.PrintMessage(f"VOLFREP, {check.Label}:\n{check.Text}\n")
+        App.Console.PrintMessage(f"VOLFREP, {check.Label}:\n{localise_rows(check.Text)}\n")
 
 
 def study_designs(obj: App.DocumentObject) -> None:

@@ -180,7 +180,7 @@ class OrientPanel:
         self._table.setRowCount(len(rows))
         for number, one in enumerate(rows):
             over, height = figure(one.overhang_mm2, 3), figure(one.height_mm, 3)
-            texts = (spoken(f"{one.cost:.5f}"), f"{over} mm\u00b2", f"{height} mm")
+            texts = (spoken(f"{one.cost:.4f}"), f"{over} mm\u00b2", f"{height} mm")
             for place, text in enumerate(texts):
                 self._table.setItem(number, place, QtWidgets.QTableWidgetItem(text))
         name = translate(_CONTEXT, "now")

@@ -4099,12 +4099,76 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Wände von {thickness} mm sind zu dick für eine Zelle von {size} mm: die Dicke verringern oder die Zelle vergrößern.</translation>
     </message>
     <message>
+      <source>below {angle} degrees</source>
+      <translation>unter {angle} Grad</translation>
+    </message>
+    <message>
       <source>cells '{cell}' of {size} mm</source>
       <translation>Zellen '{cell}' von {size} mm</translation>
     </message>
     <message>
+      <source>closed voids</source>
+      <translation>geschlossene Hohlräume</translation>
+    </message>
+    <message>
+      <source>findings</source>
+      <translation>Befunde</translation>
+    </message>
+    <message>
+      <source>inclinations</source>
+      <translation>Neigungen</translation>
+    </message>
+    <message>
       <source>its present values cannot be computed</source>
       <translation>seine jetzigen Werte lassen sich nicht berechnen</translation>
+    </message>
+    <message>
+      <source>largest ball that gets out</source>
+      <translation>größte Kugel, die herauskommt</translation>
+    </message>
+    <message>
+      <source>limits from</source>
+      <translation>Grenzen aus</translation>
+    </message>
+    <message>
+      <source>longest flat</source>
+      <translation>längste flache</translation>
+    </message>
+    <message>
+      <source>longest of these</source>
+      <translation>längste davon</translation>
+    </message>
+    <message>
+      <source>mass</source>
+      <translation>Masse</translation>
+    </message>
+    <message>
+      <source>narrowest gap</source>
+      <translation>engster Spalt</translation>
+    </message>
+    <message>
+      <source>none</source>
+      <translation>keine</translation>
+    </message>
+    <message>
+      <source>over {value} (limit {limit})</source>
+      <translation>über {value} (Grenze {limit})</translation>
+    </message>
+    <message>
+      <source>process</source>
+      <translation>Verfahren</translation>
+    </message>
+    <message>
+      <source>surface</source>
+      <translation>Oberfläche</translation>
+    </message>
+    <message>
+      <source>thinnest strut</source>
+      <translation>dünnste Strebe</translation>
+    </message>
+    <message>
+      <source>thinnest wall</source>
+      <translation>dünnste Wand</translation>
     </message>
     <message>
       <source>values or the solid have changed since it was made</source>
@@ -4119,12 +4183,20 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>{active} von {total} Zellen, {triangles} Dreiecke, {mass} g in {seconds} s</translation>
     </message>
     <message>
+      <source>{classes} % from 0 to 90 degrees, by {step}</source>
+      <translation>{classes} % von 0 bis 90 Grad, je {step}</translation>
+    </message>
+    <message>
       <source>{count} cells are too many to be shown as lines: enlarge the cells.</source>
       <translation>{count} Zellen sind zu viele, um als Linien gezeigt zu werden: die Zellen vergrößern.</translation>
     </message>
     <message>
       <source>{count} closed voids hold {volume} mm3 of unused material: open each with a hole of {hole} mm or more.</source>
       <translation>{count} geschlossene Hohlräume halten {volume} mm3 ungenutztes Material: jeden mit einem Loch von {hole} mm oder mehr öffnen.</translation>
+    </message>
+    <message>
+      <source>{count}, holding {volume} mm3</source>
+      <translation>{count}, mit {volume} mm3</translation>
     </message>
     <message>
       <source>{designs} designs of {infill}</source>
@@ -4159,8 +4231,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>{share} % der Strebenlänge liegt flacher als {inclination} Grad zur Bauplatte: eine andere Baurichtung oder Zelle wählen oder mit durchhängenden Unterseiten rechnen.</translation>
     </message>
     <message>
+      <source>{share} % of the struts' length, {area}</source>
+      <translation>{share} % der Strebenlänge, {area}</translation>
+    </message>
+    <message>
       <source>{solid} has no material in FreeCAD: give it one, or choose another for the infill.</source>
       <translation>{solid} hat in FreeCAD keinen Werkstoff: ihm einen geben, oder einen anderen für die Füllung wählen.</translation>
+    </message>
+    <message>
+      <source>{value} (limit {limit})</source>
+      <translation>{value} (Grenze {limit})</translation>
     </message>
   </context>
   <context>

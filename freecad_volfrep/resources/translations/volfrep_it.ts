@@ -4099,12 +4099,76 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Pareti di {thickness} mm sono troppo spesse per una cella di {size} mm: ridurre lo spessore o ingrandire la cella.</translation>
     </message>
     <message>
+      <source>below {angle} degrees</source>
+      <translation>sotto {angle} gradi</translation>
+    </message>
+    <message>
       <source>cells '{cell}' of {size} mm</source>
       <translation>celle '{cell}' di {size} mm</translation>
     </message>
     <message>
+      <source>closed voids</source>
+      <translation>vuoti chiusi</translation>
+    </message>
+    <message>
+      <source>findings</source>
+      <translation>rilievi</translation>
+    </message>
+    <message>
+      <source>inclinations</source>
+      <translation>inclinazioni</translation>
+    </message>
+    <message>
       <source>its present values cannot be computed</source>
       <translation>i suoi valori attuali non si possono calcolare</translation>
+    </message>
+    <message>
+      <source>largest ball that gets out</source>
+      <translation>sfera più grande che esce</translation>
+    </message>
+    <message>
+      <source>limits from</source>
+      <translation>limiti da</translation>
+    </message>
+    <message>
+      <source>longest flat</source>
+      <translation>piana più lunga</translation>
+    </message>
+    <message>
+      <source>longest of these</source>
+      <translation>la più lunga di queste</translation>
+    </message>
+    <message>
+      <source>mass</source>
+      <translation>massa</translation>
+    </message>
+    <message>
+      <source>narrowest gap</source>
+      <translation>luce più stretta</translation>
+    </message>
+    <message>
+      <source>none</source>
+      <translation>nessuno</translation>
+    </message>
+    <message>
+      <source>over {value} (limit {limit})</source>
+      <translation>oltre {value} (limite {limit})</translation>
+    </message>
+    <message>
+      <source>process</source>
+      <translation>processo</translation>
+    </message>
+    <message>
+      <source>surface</source>
+      <translation>superficie</translation>
+    </message>
+    <message>
+      <source>thinnest strut</source>
+      <translation>asta più sottile</translation>
+    </message>
+    <message>
+      <source>thinnest wall</source>
+      <translation>parete più sottile</translation>
     </message>
     <message>
       <source>values or the solid have changed since it was made</source>
@@ -4119,12 +4183,20 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>{active} celle su {total}, {triangles} triangoli, {mass} g in {seconds} s</translation>
     </message>
     <message>
+      <source>{classes} % from 0 to 90 degrees, by {step}</source>
+      <translation>{classes} % da 0 a 90 gradi, ogni {step}</translation>
+    </message>
+    <message>
       <source>{count} cells are too many to be shown as lines: enlarge the cells.</source>
       <translation>{count} celle sono troppe per essere mostrate come linee: ingrandire le celle.</translation>
     </message>
     <message>
       <source>{count} closed voids hold {volume} mm3 of unused material: open each with a hole of {hole} mm or more.</source>
       <translation>{count} vuoti chiusi contengono {volume} mm3 di materiale inutilizzato: aprire ciascuno con un foro di {hole} mm o più.</translation>
+    </message>
+    <message>
+      <source>{count}, holding {volume} mm3</source>
+      <translation>{count}, con {volume} mm3</translation>
     </message>
     <message>
       <source>{designs} designs of {infill}</source>
@@ -4159,8 +4231,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Il {share} % della lunghezza delle aste è a meno di {inclination} gradi dal piano di stampa: scegliere un'altra direzione di costruzione o cella, o mettere in conto superfici inferiori cedevoli.</translation>
     </message>
     <message>
+      <source>{share} % of the struts' length, {area}</source>
+      <translation>{share} % della lunghezza delle aste, {area}</translation>
+    </message>
+    <message>
       <source>{solid} has no material in FreeCAD: give it one, or choose another for the infill.</source>
       <translation>{solid} non ha un materiale in FreeCAD: dargliene uno, o sceglierne un altro per il riempimento.</translation>
+    </message>
+    <message>
+      <source>{value} (limit {limit})</source>
+      <translation>{value} (limite {limit})</translation>
     </message>
   </context>
   <context>

@@ -158,7 +158,7 @@ def test_text_and_json_say_the_same():
     assert figures["build_direction"] == [0, 0, 1]
     assert figures["void_volume_mm3"] == pytest.approx(8000)
     rows = dict(report.rows())
-    assert rows["closed voids"] == "1 with 8,000.0 mm3"
+    assert rows["closed voids"] == "1, holding 8,000.0 mm3"
     assert rows["below 45 degrees"].startswith("100.0 %")
     assert rows["limits from"] == LPBF.source
     for finding in report.findings:

@@ -188,7 +188,8 @@ RUN_OPTIONS = (
         "report", MESHED, "write the figures of the run as JSON", "FILE.json", writes="report",
     ),
     RunOption(
-        "report", ("size",), "write the figures, before and after", "FILE.json", writes="report",
+        "report", ("size",), "write the figures, or a page to print",
+        "FILE.json|html", writes="report",
     ),
     RunOption(
         "report", ("solve", "orient", "homogenise"), "write the figures as JSON",

@@ -14,6 +14,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING
 
@@ -61,6 +62,7 @@ def _size(given: argparse.Namespace) -> int | None:
     from ..output.file_size import fill_within
     from ..output.sources import FilledPart
     from ..output.writer import Settings, writer_of
+    from ..reports.sizing_page import is_page, write_sizing_page
     from ..reports.sizing_report import sizing_rows
     from ..util.cache import StageCache
     from ..util.files import write_json
@@ -107,7 +109,9 @@ def _size(given: argparse.Namespace) -> int | None:
                 made, part.result.mesh, loads, voxel=options.voxel, progress=progress,
                 tell=tell_expected(options.quiet),
             )  # fmt: skip
-    if options.report is not None:
+    if options.report is not None and is_page(options.report):
+        write_sizing_page(made.report, solid, loads, Path(options.part).name, options.report)
+    elif options.report is not None:
         write_json(options.report, {"sizing": made.report, "part": report.as_dict()})
     if options.plot is not None:
         from ..reports.sizing_plot import write_sizing_plot

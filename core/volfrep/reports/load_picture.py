@@ -73,7 +73,7 @@ def load_picture(
             _add_pressure(stage, body, share, load)
         elif isinstance(load, Moment):
             _add_arrow(
-                stage, body, middle, np.array(load.moment), _text(load.moment, "N m", 1e-3), 2
+                stage, body, middle, np.array(load.moment), arrow_text(load.moment, "N m", 1e-3), 2
             )
         else:
             _add_force(stage, body, middle, load)
@@ -84,9 +84,9 @@ def load_picture(
             body,
             solid.bounds.mean(axis=0),
             acceleration,
-            _text(case.acceleration, "g", 1 / 9806.65),
+            arrow_text(case.acceleration, "g", 1 / 9806.65),
         )
-    stage.add_text(case.name, font_size=int(size[0] / 70), color="black")
+    stage.addarrow_text(case.name, font_size=int(size[0] / 70), color="black")
     show_stage(stage, file, y_up=y_up, zoom=1.15)
 
 
@@ -111,7 +111,7 @@ def _add_region(stage: Any, body: Body, fine: TriangleMesh, region: Region, colo
 
 def _add_force(stage: Any, body: Body, middle: Floats, load: Force) -> None:
     place = middle if load.at is None else np.array(load.at)
-    _add_arrow(stage, body, place, np.array(load.force), _text(load.force, "N", 1.0))
+    _add_arrow(stage, body, place, np.array(load.force), arrow_text(load.force, "N", 1.0))
     if load.at is not None and np.linalg.norm(place - middle) > 0:
         import pyvista
 
@@ -153,7 +153,8 @@ def _add_arrow(
     )  # fmt: skip
 
 
-def _text(vector: Sequence[float], unit: str, scale: float) -> str:
+def arrow_text(vector: Sequence[float], unit: str, scale: float) -> str:
+    """What stands at an arrow: how large it is, times `scale`, in a unit."""
     size = scale * float(np.linalg.norm(vector))
     return (
         f"{size / 1000.0:.4g} k{unit}" if unit == "N" and size >= 1000.0 else f"{size:.4g} {unit}"

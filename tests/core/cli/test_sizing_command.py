@@ -378,3 +378,20 @@ def test_a_design_of_which_nothing_was_compared_is_not_told_as_proved(
     assert proof["largest_stress"] is None
     rows = dict(line.split("  ", 1) for line in told.splitlines() if "  " in line)
     assert float(rows["time"].split()[0]) > figures["seconds"]["total"]
+
+
+@pytest.mark.costly
+def test_the_report_is_a_page_to_print(part: Path, tmp_path: Path) -> None:
+    page = tmp_path / "report.html"
+    more = ("--report", page, "--no-proof", "--steps", 3)
+    assert size(part, *WHOLE, "--safety", 2, *more) == 0
+    text = page.read_text(encoding="utf-8")
+    assert text.count("<svg") == 2 + 1  # two cases, and the steps
+    assert not re.search(r"(src|href|url)\s*[=(]", text)  # nothing outside of it
+    assert "@page" in text
+    for said in ("Case down", "Case aside", "stress", "not solved by another program", "fatigue"):
+        assert said in text
+    (mass,) = re.findall(r"<td>whole</td><td>([0-9.]+) g", text)
+    assert float(mass) == pytest.approx(
+        trimesh.load(part.with_name("out.stl")).volume * 4.41e-3, rel=0.01
+    )

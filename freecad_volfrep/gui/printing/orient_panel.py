@@ -143,7 +143,9 @@ class OrientPanel:
         self._table.setSelectionBehavior(QtWidgets.QAbstractItemView.SelectRows)
         self._table.setSelectionMode(QtWidgets.QAbstractItemView.SingleSelection)
         self._table.setEditTriggers(QtWidgets.QAbstractItemView.NoEditTriggers)
-        self._table.horizontalHeader().setStretchLastSection(True)
+        columns = self._table.horizontalHeader()
+        columns.setSectionResizeMode(QtWidgets.QHeaderView.ResizeToContents)
+        columns.setSectionResizeMode(len(HEADS) - 1, QtWidgets.QHeaderView.Stretch)
         self._table.currentCellChanged.connect(lambda *_: self._pick())
         column.addWidget(self._table, 1)
         self._text = QtWidgets.QLabel()
@@ -185,7 +187,10 @@ class OrientPanel:
                 self._table.setItem(number, place, QtWidgets.QTableWidgetItem(text))
         name = translate(_CONTEXT, "now")
         self._table.setVerticalHeaderLabels([name, *map(str, range(1, len(rows)))])
-        self._table.resizeColumnsToContents()
+        # All rows are seen: a bar beside them would leave the columns too little room.
+        height = self._table.horizontalHeader().sizeHint().height()
+        height += self._table.verticalHeader().length() + 2 * self._table.frameWidth()
+        self._table.setMinimumHeight(height)
         self._table.blockSignals(False)
         if rows:
             self._table.selectRow(min(1, len(rows) - 1))

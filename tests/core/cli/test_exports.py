@@ -90,7 +90,7 @@ def test_the_print_report(tmp_path: Path, part: Path, capsys: pytest.CaptureFixt
     assert fill(part, tmp_path / "out.stl", *options) == 0
     said = capsys.readouterr().out
     assert re.search(r"^process +LPBF, metal powder, laser$", said, re.MULTILINE)
-    assert re.search(r"^closed voids +1 with ", said, re.MULTILINE)
+    assert re.search(r"^closed voids +1, holding ", said, re.MULTILINE)
     figures = json.loads(report.read_text())
     printing = figures["print_report"]
     assert printing["process"]["name"] == "LPBF"

@@ -137,3 +137,17 @@ def add_bars(
         own = along[:, None, None] * strain[:, :, None] * strain[:, None]
         own += bent[rows, None, None] * np.einsum("qia,qib->qab", ends, ends, optimize=True)
         np.add.at(matrices, elements[rows], own.astype(np.float32))
+
+
+def bar_conductances(bricks: Bricks, places: Floats, ways: Floats, sizes: Floats) -> Floats:
+    """(q, 8, 8) mm, over the solid's conductivity, of lines through elements.
+
+    Args:
+        bricks: their integrals.
+        places: (q, 3) the pieces' middles in the unit cube.
+        ways: (q, 3) unit vectors along them.
+        sizes: (q,) mm3: the section times the piece's length.
+    """
+    slopes = np.einsum("qai,qi->qa", gradients(places) / bricks.edge, ways)
+    result: Floats = sizes[:, None, None] * slopes[:, :, None] * slopes[:, None]
+    return result

@@ -57,6 +57,8 @@ class ContinuumModel:
         material: the solid.
         loaded: takes loads to the nodes.
         across: how many cells lie across the part where it is thickest.
+        border: (q,) rows of elements and (q, 8, 8) mm, over the solid's conductivity: the struts
+            in free faces that the homogenised cells lack; None where there are none.
     """
 
     size: tuple[int, int, int]
@@ -75,6 +77,7 @@ class ContinuumModel:
     material: SolidMaterial
     loaded: Loaded
     across: float
+    border: tuple[Ints, Floats] | None
 
     @property
     def nodes(self) -> Floats:
@@ -284,6 +287,8 @@ def conduct(
     count = len(model.nodes)
     own = conductivity * 1e-3 * model.conductivity[:, None, None] * np.eye(3)
     blocks = model.bricks.conductances(model.shares, own, conductivity * 1e-3)
+    if model.border is not None:
+        np.add.at(blocks, model.border[0], conductivity * 1e-3 * model.border[1])
     rows = np.repeat(model.elements.nodes, 8, axis=1).ravel()
     columns = np.tile(model.elements.nodes, (1, 8)).ravel()
     matrix = csr_matrix((blocks.ravel(), (rows, columns)), (count, count))

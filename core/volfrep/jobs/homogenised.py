@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..continuum.border import border_bars
-from ..continuum.bricks import Bricks, Shares, add_bars, constants
+from ..continuum.bricks import Bricks, Shares, add_bars, bar_conductances, constants
 from ..continuum.cell_law import CellLaw, pressed_struts, split, stretched_tensors, turned
 from ..continuum.deck import write_deck
 from ..continuum.eigen import buckling_factors
@@ -33,7 +33,7 @@ from ..continuum.model import (
 from ..design.spec import LatticeSpec
 from ..grid.placement import node_radii
 from ..io.write.vtu import write_vtu
-from ..loads.load_cases import LoadCases, with_weights
+from ..loads.load_cases import Heat, LoadCases, with_weights
 from ..mechanics.catalogue import joint_law
 from ..mechanics.elements import PARTS, solid_stiffness
 from ..mechanics.endless import stretched_strains
@@ -239,6 +239,7 @@ def homogenise_part(
         ],
         "frequencies_hz": hertz,
         "heat": heat,
+        "resistance_k_w": _resistance(loads.heat, heat),
         "seconds": time.perf_counter() - start,
         "notes": _notes(infill, model),
     }
@@ -283,6 +284,25 @@ def _heat(model: ContinuumModel, loads: LoadCases) -> tuple[Floats | None, list[
         mean = float(np.einsum("n,n->", model.loaded.weights_of(one.region), warm))
         found.append({"name": one.name, "temperature": mean, "power_w": power})
     return warm, found
+
+
+def _resistance(given: Sequence[Heat], found: Sequence[Mapping[str, Any]]) -> float | None:
+    """K/W of what lies between two temperatures, or between a power and a temperature.
+
+    Films are part of it. None where heat flows between more.
+    """
+    powers = [one for one, own in zip(found, given, strict=True) if own.power is not None]
+    held = sorted({one.temperature for one in given if one.temperature is not None})
+    if len(powers) == 1 and len(held) == 1 and powers[0]["power_w"]:
+        return float((powers[0]["temperature"] - held[0]) / powers[0]["power_w"])
+    if not powers and len(held) == 2:
+        warm = sum(
+            one["power_w"]
+            for one, own in zip(found, given, strict=True)
+            if own.temperature == held[1]
+        )
+        return float((held[1] - held[0]) / warm) if warm else None
+    return None
 
 
 def continuum_model(
@@ -340,8 +360,9 @@ class PartBricks:
         skin = constants(solid_stiffness(material.young, material.poisson))
         matrices = bricks.matrices(shares, material.young * constants(lattice), skin)
         filled = (shares.lattice * _of(law.at(law.density, thickness)) + shares.solid).mean(axis=1)
+        border = None
         if _is_whole(infill) and spec.kind.cube is not None:
-            more = _add_border(
+            more, border = _add_border(
                 infill, bricks, matrices, place, (self.low, self.count), law, material.young,
                 thickness_at,
             )  # fmt: skip
@@ -355,7 +376,7 @@ class PartBricks:
             material.young * lattice, frames, thickness, law.at(law.density, thickness),
             law.at(law.strength, thickness), law.at(law.conductivity, thickness),
             _pressed(infill, law, thickness), material, weighing,
-            cells_across(all_lattice, edge, spec.cell_size),
+            cells_across(all_lattice, edge, spec.cell_size), border,
         )  # fmt: skip
 
 
@@ -498,11 +519,12 @@ def _lattice(
 def _add_border(
     infill: Infill, bricks: Bricks, matrices: Floats, place: Ints, grid: tuple[Floats, Ints],
     law: CellLaw, young: float, radii_at: Callable[[Floats], Floats],
-) -> Floats:  # fmt: skip
+) -> tuple[Floats, tuple[Ints, Floats] | None]:  # fmt: skip
     """Add the struts in free faces that the homogenised cells lack, in place.
 
     Returns:
-        (e,) mm3 of them in each brick, joints counted as often as struts meet there.
+        (e,) mm3 of them in each brick, joints counted as often as struts meet there, and what they
+        conduct, as a `ContinuumModel` has it.
     """
     spec, mapping = infill.spec, infill.placement.mapping
     low, count = grid
@@ -512,7 +534,7 @@ def _add_border(
     origin = cells.origin
     bars = border_bars(spec.kind.cube, active)
     if not len(bars.shares):
-        return np.zeros(len(place))
+        return np.zeros(len(place)), None
     # Two pieces or more in every brick, so that a bar has no gap.
     pieces = 2 * int(np.ceil(cells.cell_size / float(bricks.edge.min()) - 1e-6))
     share = (np.arange(pieces + 1) / pieces)[None, :, None]
@@ -556,10 +578,11 @@ def _add_border(
         at[rows] = inside[rows] - where[rows]
     kept = best >= 0
     way = span[kept] / length[kept, None]
-    add_bars(
-        matrices, bricks, best[kept], np.clip(at[kept], 0.0, 1.0), way, sizes[kept], bent[kept]
-    )
-    return np.asarray(np.bincount(best[kept], volume[kept], len(place)), float)
+    at = np.clip(at[kept], 0.0, 1.0)
+    add_bars(matrices, bricks, best[kept], at, way, sizes[kept], bent[kept])
+    conducted = bar_conductances(bricks, at, way, volume[kept])
+    own_volume = np.asarray(np.bincount(best[kept], volume[kept], len(place)), float)
+    return own_volume, (best[kept], conducted)
 
 
 def _of_bare(infill: Infill, law: CellLaw) -> float:
@@ -642,5 +665,7 @@ def homogenised_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         (f"heat {one['name']}", f"{one['temperature']:.5g} degrees, gives {one['power_w']:.4g} W")
         for one in report["heat"]
     ]
+    if report["resistance_k_w"] is not None:
+        rows.append(("thermal resistance", f"{report['resistance_k_w']:.4g} K/W"))
     rows.append(("time", f"{report['seconds']:.3g} s"))
     return rows

@@ -16,6 +16,7 @@ from volfrep.continuum.bricks import Bricks, Shares, constants
 from volfrep.continuum.cell_law import split, stretched_tensors, turned
 from volfrep.design.cells import LIBRARY, PAPERS
 from volfrep.design.grading import Orientation, RadiusGrading, SizeGrading
+from volfrep.design.parameters.spec_file import read_spec
 from volfrep.design.profile import Profile
 from volfrep.io.solid import check_solid
 from volfrep.jobs.homogenised import cell_law, homogenise_part
@@ -200,9 +201,43 @@ def test_heat_that_flows_in_at_an_end_warms_lattice_and_skin():
     # Bricks of 5 mm see caps of 2 mm a little too thick.
     assert 0.98 * caps / 0.25e-3 < chip["temperature"] - 20.0 < apart / 0.25e-3
     assert made.report["heat"][0]["power_w"] == pytest.approx(-1.0)
+    assert made.report["resistance_k_w"] == pytest.approx(chip["temperature"] - 20.0)
     assert ("heat chip", f"{chip['temperature']:.5g} degrees, gives 1 W") in made.rows()
     with pytest.raises(VolfrepError, match="volfrep homogenise"):
         solve_struts(block(60, 30, 30), spec, loads)
+
+
+def led_by_struts(cell, count, radius, length):
+    """W through a block of struts, k = 1 W/(mm K), 1 K from end to end: each a resistor."""
+    unit = LIBRARY[cell]
+    nodes, struts = np.asarray(unit.nodes), np.asarray(unit.struts)
+    places = np.array(list(np.ndindex(*count)))
+    ends = np.round((nodes[struts][None] + places[:, None, None]) * length, 6).reshape(-1, 2, 3)
+    ends = np.array([sorted(map(tuple, one)) for one in ends.tolist()])
+    points, rows = np.unique(np.unique(ends, axis=0).reshape(-1, 3), axis=0, return_inverse=True)
+    own = np.pi * radius**2 / np.linalg.norm(np.diff(points[rows.reshape(-1, 2)], axis=1), axis=2)
+    matrix = np.zeros((len(points), len(points)))
+    for (i, j), size in zip(rows.reshape(-1, 2).tolist(), own[:, 0].tolist(), strict=True):
+        matrix[[i, j], [i, j]] += size
+        matrix[[i, j], [j, i]] -= size
+    warm = (points[:, 0] < 1e-6).astype(float)
+    free = (points[:, 0] > 1e-6) & (points[:, 0] < count[0] * length - 1e-6)
+    warm[free] = np.linalg.solve(matrix[np.ix_(free, free)], -(matrix @ warm)[free])
+    return float(warm @ matrix @ warm)
+
+
+@pytest.mark.parametrize(("cell", "more"), [("Box", 1.01), ("BCC", 1.03), ("Octet", 1.04)])
+def test_whole_cells_lead_heat_as_their_struts_do_those_in_free_faces_too(cell, more):
+    """Explicit struts; joints, which the cells have and resistors have not, lead it somewhat."""
+    warm = (Heat(end(0), temperature=1.0), Heat(end(40), temperature=0.0, name="cold"))
+    loads = LoadCases(PA12, (loaded(40),), heat=warm, conductivity=1000.0)
+    made = homogenise_part(
+        block(40, 20, 20), LatticeSpec(cell, strut_radius=0.3, **WHOLE), loads, element=5
+    )
+    led = led_by_struts(cell, (4, 2, 2), 0.3, 10.0)
+    assert made.report["heat"][0]["power_w"] / led == pytest.approx(more, abs=0.01)
+    assert made.report["resistance_k_w"] == pytest.approx(1 / (more * led), rel=0.01)
+    assert "thermal resistance" in dict(made.rows())
 
 
 def test_a_film_takes_heat_as_its_resistance_behind_the_bar_says():
@@ -218,6 +253,7 @@ def test_a_film_takes_heat_as_its_resistance_behind_the_bar_says():
     assert cool["temperature"] == pytest.approx(outside, rel=1e-3)
     inside = outside + 60 / (20e-3 * share * 900)
     assert warm["temperature"] == pytest.approx(inside, rel=5e-3)
+    assert made.report["resistance_k_w"] == pytest.approx(inside - 20.0, rel=5e-3)
     sides = [InPlane((0, y, 0), (0, 1, 0)) for y in (0, 10)]
     sides += [InPlane((0, 0, z), (0, 0, 1)) for z in (0, 10)]
     films = [(side, 20.0, 5.0) for side in sides]
@@ -312,3 +348,28 @@ def test_the_command_and_the_call_say_the_same(tmp_path, capsys):
     assert made.report["cases"][0]["displacement_mm"] == pytest.approx(case["displacement_mm"])
     assert (tmp_path / "part.vtu").stat().st_size > 10_000
     assert run(*call, "-o", tmp_path / "part.obj") == 2
+
+
+@pytest.mark.costly
+def test_a_heat_sink_by_its_recipe_tells_its_thermal_resistance(tmp_path, capsys):
+    """Closed form: a bar of its walls between a chip and a face in a stream."""
+    solid, spec = block(32, 16, 16), read_spec("heat-sink")
+    part, loads = tmp_path / "part.stl", tmp_path / "loads.toml"
+    trimesh.Trimesh(solid.vertices, solid.triangles).export(part)
+    loads.write_text(
+        'material = "AlSi10Mg"\nconductivity = 130\n[[support]]\nfixed = true\n'
+        "plane = {point = [0, 0, 0], normal = [1, 0, 0]}\n[[case]]\n[[case.load]]\n"
+        "force = [0, 0, -1]\nplane = {point = [32, 0, 0], normal = [1, 0, 0]}\n"
+        '[[heat]]\nname = "chip"\npower = 5\n'
+        "plane = {point = [0, 0, 0], normal = [1, 0, 0]}\n"
+        '[[heat]]\nname = "air"\ntemperature = 20\nfilm = 100\n'
+        "plane = {point = [32, 0, 0], normal = [1, 0, 0]}\n"
+    )
+    told = tmp_path / "told.json"
+    call = ["homogenise", str(part), "--loads", str(loads), "--spec", "heat-sink"]
+    assert run(*call, "--report", told) == 0
+    assert "thermal resistance" in capsys.readouterr().out
+    share = cell_law(spec).conductivity[0]
+    closed = 32 / (130e-3 * share * 256) + 1 / (100e-6 * 256)
+    found = json.loads(told.read_text())["resistance_k_w"]
+    assert found == pytest.approx(closed, rel=5e-3)

@@ -32,6 +32,20 @@ def test_there_are_specimens_of_several_processes_and_cells(tool):
     assert {row["read"] for row in rows} == {"text", "quoted"}
 
 
+def test_what_was_read_in_its_source_stands_apart_from_what_others_quote(tool):
+    rows = [
+        {"name": "a", "read": "text", "young": 100.0},
+        {"name": "b", "read": "quoted", "young": 100.0},
+        {"name": "c", "read": "quoted", "young": 100.0},
+    ]
+    found = {
+        name: {"nominal": {"young": e}} for name, e in zip("abc", (120, 200, 400), strict=True)
+    }
+    _, _, text, quoted = tool.page.error_table(rows, found).splitlines()
+    assert text == "| young, text | 1 | +20% | 20% | +20%, +20% | 0.83 |"
+    assert quoted == "| young, quoted | 2 | +200% | 200% | +100%, +300% | 0.25 |"
+
+
 @pytest.mark.parametrize("name", ["F-BCC tube", "Diamond 28 %", "BCC, d 1 mm", "Octet"])
 def test_what_takes_no_time_is_predicted_as_the_page_says(tool, name):
     row = next(row for row in tool.specimens()[0] if row["name"] == name)

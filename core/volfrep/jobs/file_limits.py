@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The finest facets with which a file keeps within limits: first by forecast, then by the file.
 
-Triangles grow with the square of the facets along a cell, but for those of the skin. So after each
-file that was made the next is as much finer or coarser as its own size says.
+Triangles grow with the square of the facets along a cell, but for those of the skin and where
+joints are divided. So after each file that was made the next is as much finer or coarser as its own
+size says; where that leaves much of the limits unused, finer ones that were passed over are tried.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from ..design.spec import LatticeSpec
 from ..design.spec_parts import DEFAULT_RELATIVE_DEVIATION
 from ..graphs.surface import FEWEST_SIDES, sides_for
 from ..util.errors import VolfrepError
+from ..util.numbers import round_off
 
 T = TypeVar("T")
 
@@ -26,7 +28,13 @@ STL_BYTES = 50.0
 ENOUGH = 0.85
 #: The next file is made to use so much of them.
 AIM = 0.95
+#: One that uses less is made anew with finer facets that seemed too many: where joints had to be
+#: divided, finer facets may be fewer.
+LEAST = 0.7
 MOST_FILES = 8
+#: A forecast that is so many times too large is believed before there is a file: of those measured
+#: the largest was 1.43 times what was made.
+SURELY = 3.0
 
 
 @dataclass(frozen=True)
@@ -68,28 +76,36 @@ def fit_within(
         return _fit_corners(spec, limits, make)
     finest, coarsest = spec.facets_along_cell, spec.kind.coarsest_resolution
     coarsest = min(coarsest, finest)
+    told = expect(spec if coarsest == finest else _with(spec, coarsest))
+    if limits.triangles is not None and told > SURELY * limits.triangles:
+        raise _too_many(limits, coarsest, f"would have about {round_off(told)} triangles")
     low, high = coarsest, finest
     facets, best = _first(spec, limits, expect, coarsest, finest), None
+    left = set(range(coarsest, finest + 1))
     for _ in range(MOST_FILES):
         tried = spec if facets == finest else _with(spec, facets)
         made, triangles, megabytes = make(tried)
+        left.discard(facets)
         used = _used(limits, triangles, megabytes)
         if used <= 1.0:
-            deviation = "" if facets == finest else _note(spec, facets, finest, limits)
-            best = Fitted(made, tried, used, deviation)
-            low = facets + 1
+            low = max(low, facets + 1)
+            if best is None or used > best.used:
+                deviation = "" if facets == finest else _note(spec, facets, finest, limits)
+                best = Fitted(made, tried, used, deviation)
         else:
-            high = facets - 1
+            high = min(high, facets - 1)
             if facets == coarsest:
                 size = "" if limits.megabytes is None else f" and {megabytes:.3g} MB"
-                raise VolfrepError(
-                    f"With the coarsest facets at which its lattice keeps its shape ({facets} "
-                    f"along a cell) the file has {triangles:,} triangles{size}, more than "
-                    f"{limits}: make the cells larger or the part smaller."
-                )
-        if low > high or (best is not None and best.used >= ENOUGH):
+                raise _too_many(limits, coarsest, f"has {triangles:,} triangles{size}")
+        if best is not None and best.used >= ENOUGH:
             break
-        facets = min(max(int(facets * (AIM / used) ** 0.5), low), high)
+        if low <= high:
+            facets = min(max(int(facets * (AIM / used) ** 0.5), low), high)
+            continue
+        finer = {count for count in left if count >= low}
+        if not finer or (best is not None and best.used >= LEAST):
+            break
+        facets = max(finer)
     if best is None:
         raise VolfrepError(
             f"No facets were found with which the file keeps within {limits} in {MOST_FILES} "
@@ -132,6 +148,14 @@ def _fit_corners(
     raise VolfrepError(
         f"With the fewest corners round its struts ({FEWEST_SIDES}) the file has {triangles:,} "
         f"triangles{size}, more than {limits}: leave struts out or make the part smaller."
+    )
+
+
+def _too_many(limits: FileLimits, coarsest: int, what: str) -> VolfrepError:
+    """Says that a file cannot keep within limits."""
+    return VolfrepError(
+        f"With the coarsest facets at which its lattice keeps its shape ({coarsest} along a cell) "
+        f"the file {what}, more than {limits}: make the cells larger or the part smaller."
     )
 
 

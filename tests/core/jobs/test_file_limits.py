@@ -9,9 +9,11 @@ import trimesh
 
 import samples
 from command import run
-from volfrep import VolfrepError, block, fill, mesh_network, size
+from volfrep import LatticeSpec, VolfrepError, block, fill, mesh_network, size
+from volfrep.design.cells import find_cell
 from volfrep.design.file_limits import SERVICES, FileLimits, limits_of
 from volfrep.io.write.stl import write_stl
+from volfrep.jobs.file_limits import fit_within
 
 BOX = samples.box((30.0, 20.0, 20.0))
 
@@ -132,6 +134,30 @@ def test_a_form_without_a_mesh_has_no_limits(tmp_path, capsys):
     wanted = ("--cell", "BCC", "--max-size", 5)
     assert run("fill", part_file(tmp_path), "-o", tmp_path / "part.inp", *wanted) == 2
     assert "coarser facets of a mesh" in capsys.readouterr().err
+
+
+#: Triangles of the GE bracket with CVC cells (L = 10, skin 3) whose radius follows the formula
+#: 0.6 + 0.6 s, by facets along a cell: joints of 14 to 16 had to be divided.
+DIVIDED = {12: 487_414, 13: 487_510, 14: 1_000_294, 15: 1_724_778, 16: 2_037_142, 17: 874_860,
+           18: 914_310}  # fmt: skip
+
+
+@pytest.mark.parametrize(("most", "facets"), [(500_000, 12), (876_000, 17), (910_000, 17)])
+def test_finer_facets_that_are_fewer_are_found(most, facets):
+    spec = LatticeSpec(find_cell("CVC"), 10.0, strut_radius=0.85, resolution=18)
+    made = fit_within(
+        spec, FileLimits(most, None),
+        lambda wanted: 983_494 * (wanted.facets_along_cell / 18) ** 2,
+        lambda wanted: ("", DIVIDED[wanted.facets_along_cell], 0.0),
+    )  # fmt: skip
+    assert made.spec.facets_along_cell == facets
+    assert 0.7 <= made.used <= 1.0
+
+
+def test_what_is_far_too_much_is_refused_before_it_is_made():
+    spec = LatticeSpec(find_cell("BCC"), 4.0, strut_radius=0.4)
+    with pytest.raises(VolfrepError, match="would have about 6,400,000 triangles, more than"):
+        fit_within(spec, FileLimits(1_000_000, None), lambda _: 6.38e6, pytest.fail)
 
 
 def test_services_are_known_by_name_source_and_date():

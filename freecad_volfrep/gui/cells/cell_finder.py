@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.selection import selected_infill
 from freecad_volfrep.gui.undo import undo_step
+from freecad_volfrep.gui.widgets.controls import push_button, table_of_rows
 from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, translate
 from volfrep.util.errors import VolfrepError
@@ -78,13 +79,13 @@ class CellFinder(CellWindow):
             )
         except VolfrepError as error:
             self._found = []
-            self._say(str(error), wrong=True)
+            self._note.say(str(error), wrong=True)
         else:
             count = len(self._found)
             text = translate(_CONTEXT, "{count} cells, with L = {size} mm") if count else (
                 translate(_CONTEXT, "No cell of the library has that: ask for something else.")
             )  # fmt: skip
-            self._say(text.format(count=count, size=figure(self._size, 4)), wrong=not count)
+            self._note.say(text.format(count=count, size=figure(self._size, 4)), wrong=not count)
         self._table.setRowCount(len(self._found))
         for row, one in enumerate(self._found):
             texts = (
@@ -117,7 +118,7 @@ class CellFinder(CellWindow):
             infill.RadiusDrivenBy = "Radius"
             infill.StrutRadius = one.strut_radius
             infill.Document.recompute()
-        self._say(f"{infill.Label}: {localise(infill.Status)}", wrong=not infill.isValid())
+        self._note.say(f"{infill.Label}: {localise(infill.Status)}", wrong=not infill.isValid())
 
     def _wanted(self) -> tuple[float | None, float | None]:
         """Density and modulus; None for any."""
@@ -170,24 +171,13 @@ class CellFinder(CellWindow):
         line.addWidget(QtWidgets.QLabel(translate(_CONTEXT, "of")))
         line.addWidget(self._material, 1)
         self._chart = CellChart(self.pick)
-        self._table = QtWidgets.QTableWidget(0, len(HEADS))
-        self._table.setObjectName("Answers")
-        self._table.setSelectionBehavior(QtWidgets.QAbstractItemView.SelectRows)
-        self._table.setSelectionMode(QtWidgets.QAbstractItemView.SingleSelection)
-        self._table.setEditTriggers(QtWidgets.QAbstractItemView.NoEditTriggers)
+        self._table = table_of_rows("Answers", HEADS)
         self._table.verticalHeader().hide()
         for column, width in enumerate(WIDTHS):
             self._table.setColumnWidth(column, width)
-        self._table.horizontalHeader().setStretchLastSection(True)
         self._table.currentCellChanged.connect(lambda row, *_: self._chart.choose(row))
-        self._apply = QtWidgets.QPushButton()
-        self._apply.setObjectName("Apply")
-        self._apply.setAutoDefault(False)
-        self._apply.clicked.connect(lambda _=False: self.apply())
-        close = QtWidgets.QPushButton(translate("VolfrepCells", "Close"))
-        close.setObjectName("Close")
-        close.setAutoDefault(False)
-        close.clicked.connect(lambda _=False: self.close())
+        self._apply = push_button("Apply", "", self.apply)
+        close = push_button("Close", translate("VolfrepCells", "Close"), self.close)
         buttons = QtWidgets.QHBoxLayout()
         buttons.addWidget(self._note, 1)
         buttons.addWidget(self._apply)

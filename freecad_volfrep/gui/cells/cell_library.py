@@ -12,6 +12,7 @@ from freecad_volfrep.gui.messages import file_name
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.selection import selected_infill, selected_with_edges
 from freecad_volfrep.gui.undo import undo_step
+from freecad_volfrep.gui.widgets.controls import push_button
 from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import LIBRARY, load_cell
@@ -53,7 +54,7 @@ class CellLibrary(CellWindow):
         self._notes.setFrameShape(QtWidgets.QFrame.NoFrame)
         self._notes.setFixedHeight(NOTES)
         self._buttons = {
-            name: self._button(name, tip, act)
+            name: push_button(name, translate(_CONTEXT, name), act, translate(_CONTEXT, tip))
             for name, tip, act in (
                 (
                     QT_TRANSLATE_NOOP("VolfrepCells", "Load..."),
@@ -104,7 +105,7 @@ class CellLibrary(CellWindow):
         try:
             cell = load_cell(path)
         except VolfrepError as error:
-            self._say(str(error), wrong=True)
+            self._note.say(str(error), wrong=True)
             return
         self._add(entry_of(cell, str(Path(path).resolve())), pick=True)
 
@@ -117,7 +118,7 @@ class CellLibrary(CellWindow):
         try:
             drawn = cell_from_lines(self._free_name(objects), drawn_lines(objects))
         except VolfrepError as error:
-            self._say(str(error), wrong=True)
+            self._note.say(str(error), wrong=True)
             return
         size = translate(
             _CONTEXT, "Drawn with L = {size:g} mm; every L can be given to an infill."
@@ -134,12 +135,12 @@ class CellLibrary(CellWindow):
             refuse_inputs_of_all(path, but=("CellFile",))  # a cell may replace a cell
             save_cell(entry.cell, path)
         except VolfrepError as error:
-            self._say(str(error), wrong=True)
+            self._note.say(str(error), wrong=True)
             return False
         if entry.is_own:
             entry.path = str(Path(path).resolve())
         self._show()
-        self._say(translate("VolfrepMessages", "{path} written").format(path=path))
+        self._note.say(translate("VolfrepMessages", "{path} written").format(path=path))
         return True
 
     def apply(self) -> None:
@@ -154,7 +155,7 @@ class CellLibrary(CellWindow):
             else:
                 infill.CellType = entry.cell.name
             infill.Document.recompute()
-        self._say(f"{infill.Label}: {localise(infill.Status)}", wrong=not infill.isValid())
+        self._note.say(f"{infill.Label}: {localise(infill.Status)}", wrong=not infill.isValid())
 
     def _picker(self) -> Any:
         picker = QtWidgets.QListWidget()
@@ -188,14 +189,6 @@ class CellLibrary(CellWindow):
         if self._list.currentItem() is not None and self._list.currentItem().isHidden():
             shown = (self._list.item(row) for row in range(self._list.count()))
             self._list.setCurrentItem(next(item for item in shown if not item.isHidden()))
-
-    def _button(self, name: str, tip: str, act: Any) -> Any:
-        button = QtWidgets.QPushButton(translate(_CONTEXT, name))
-        button.setObjectName(name)
-        button.setToolTip(translate(_CONTEXT, tip))
-        button.setAutoDefault(False)
-        button.clicked.connect(lambda _=False: act())
-        return button
 
     def _lay_out(self) -> None:
         beside = QtWidgets.QWidget()
@@ -260,7 +253,7 @@ class CellLibrary(CellWindow):
         )
         self._figures.setText(f"<b>{html.escape(cell.name)}</b><table>{lines}</table>")
         self._does.show_cell(cell)
-        self._say("\n".join(entry.notes))
+        self._note.say("\n".join(entry.notes))
         self._enable()
 
     def _enable(self) -> None:

@@ -11,6 +11,7 @@ import FreeCADGui as Gui
 from freecad_volfrep.features.infill.materials import material_of
 from freecad_volfrep.features.jobs.progress import run_job
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep.gui.widgets.controls import push_button
 from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import UnitCell
@@ -69,13 +70,9 @@ class CellProperties(QtWidgets.QWidget):
         self._figures.setObjectName("Properties")
         self._figures.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
         column.addWidget(self._figures)
-        self._compute = QtWidgets.QPushButton(translate(_CONTEXT, "Compute"))
-        self._compute.setObjectName("ComputeProperties")
-        self._compute.setAutoDefault(False)
-        self._compute.setToolTip(
-            translate(_CONTEXT, "Homogenise this cell with this radius: it takes some seconds")
-        )
-        self._compute.clicked.connect(lambda _=False: self.compute())
+        tip = translate(_CONTEXT, "Homogenise this cell with this radius: it takes some seconds")
+        text = translate(_CONTEXT, "Compute")
+        self._compute = push_button("ComputeProperties", text, self.compute, tip)
         column.addWidget(self._compute)
         self._offer_materials()
         self._material.currentIndexChanged.connect(lambda _: self._timer.start(0))

@@ -7,10 +7,9 @@ from typing import Any
 
 import FreeCADGui as Gui
 
-from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.selection import selected_infill
-from freecad_volfrep.sentences import localise
+from freecad_volfrep.gui.widgets.controls import Message
 from freecad_volfrep.translation import translate
 
 
@@ -27,9 +26,7 @@ class CellWindow(QtWidgets.QDialog):
         self.setObjectName(name)
         self.setWindowTitle(title)
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
-        self._note = QtWidgets.QLabel()
-        self._note.setObjectName("Note")
-        self._note.setWordWrap(True)
+        self._note = Message("Note")
 
     def follow_selection(self) -> None:
         """Hear of the selection until the window closes."""
@@ -73,10 +70,6 @@ class CellWindow(QtWidgets.QDialog):
         if infill is not None:
             text = translate("VolfrepCells", "Apply to {label}").format(label=infill.Label)
         button.setText(text)
-
-    def _say(self, text: str, wrong: bool = False) -> None:
-        self._note.setStyleSheet(WRONG if wrong else "")
-        self._note.setText(localise(text))
 
 
 def show_one(name: str, make: Any) -> Any:

@@ -20,6 +20,7 @@ from freecad_volfrep.gui.draw.probe import Probe
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.view import section_view
 from freecad_volfrep.gui.widgets.colour_range import ColourRange
+from freecad_volfrep.gui.widgets.controls import push_button
 from freecad_volfrep.gui.widgets.object_dock import ObjectDock, close_docks
 from freecad_volfrep.gui.widgets.panel_manners import fits_any_width
 from freecad_volfrep.translation import figure, translate
@@ -140,12 +141,9 @@ class ColourDock(ObjectDock):
         for widget in of_cases:
             widget.setVisible(bool(colours.cases))
         by = QtWidgets.QLabel(translate("VolfrepColours", "Colour by"))
-        shot = QtWidgets.QPushButton(translate("VolfrepColours", "Picture"))
-        shot.setObjectName("Picture")
-        shot.setToolTip(
-            translate("VolfrepColours", "Save the view with its legend, on white, for a report")
-        )
-        shot.clicked.connect(lambda _=False: self._save_picture())
+        tip = translate("VolfrepColours", "Save the view with its legend, on white, for a report")
+        text = translate("VolfrepColours", "Picture")
+        shot = push_button("Picture", text, self._save_picture, tip)
         column = self.set_line((by, self._quantity, *of_cases, self._range, shot))
         fits_any_width(self._said)  # in the line it would make the window wider than the screen
         column.addWidget(self._said)

@@ -12,6 +12,7 @@ import FreeCAD as App
 from freecad_volfrep.features.infill.recipes import apply_recipe, known_recipes, save_recipe
 from freecad_volfrep.gui.messages import tell_written
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep.gui.widgets.controls import push_button
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
@@ -53,14 +54,11 @@ class RecipeRow(QtWidgets.QWidget):
             )
         )
         self.list.activated.connect(self._choose)
-        self.save = QtWidgets.QPushButton(translate("VolfrepRecipes", "Save..."))
-        self.save.setObjectName("SaveRecipe")
-        self.save.setToolTip(
-            translate(
-                "VolfrepRecipes", "Keep these settings under a name, for other solids and documents"
-            )
+        tip = translate(
+            "VolfrepRecipes", "Keep these settings under a name, for other solids and documents"
         )
-        self.save.clicked.connect(lambda _=False: self._ask())
+        text = translate("VolfrepRecipes", "Save...")
+        self.save = push_button("SaveRecipe", text, self._ask, tip)
         row = QtWidgets.QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self.list, 1)

@@ -22,16 +22,15 @@ from freecad_volfrep.features.infill.live_preview import (
 )
 from freecad_volfrep.features.properties.quantities import is_driven, number_of, set_value
 from freecad_volfrep.gui.jobs.updating import Update, begin_update, show_mesh
-from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
 from freecad_volfrep.gui.view.preview_only import end_preview
 from freecad_volfrep.gui.view.preview_view import PreviewView
 from freecad_volfrep.gui.view.section_view import close_section, open_section
+from freecad_volfrep.gui.widgets.controls import Message, push_button
 from freecad_volfrep.gui.widgets.panel_manners import (
     PanelForm,
     allow_ok,
-    entitle,
-    fits_any_width,
+    close_panel,
     keep_height,
     keep_space,
     leave_the_wheel,
@@ -293,11 +292,8 @@ class TaskPanel:
         return not spec.kind.is_judged_by_preview
 
     def _build(self) -> Any:
-        form = PanelForm()
-        form.setObjectName("VolfrepTaskPanel")
-        entitle(form, self._obj.Label)
-        column = QtWidgets.QVBoxLayout(form)
-        column.setContentsMargins(0, 0, 0, 0)
+        form = PanelForm("VolfrepTaskPanel", self._obj.Label)
+        column = form.column
         self._recipes = RecipeRow(self._obj, self._show_all, partial(self._refuse, ""))
         column.addWidget(self._recipes)
         self._picker = LatticePicker(self._obj, self._fields.set_value)
@@ -349,31 +345,23 @@ class TaskPanel:
         return section
 
     def _add_figures(self, column: Any) -> None:
-        self._figures = QtWidgets.QLabel()
-        self._figures.setObjectName("Figures")
-        fits_any_width(self._figures)
+        self._figures = Message("Figures")
         column.addWidget(self._figures)
         line = QtWidgets.QHBoxLayout()
         self._preview = self._check_box(PREVIEW, True, line)
         self._grid = self._check_box(CELLS, False, line)
-        button = QtWidgets.QPushButton(translate("VolfrepTaskPanel", "Compute"))
-        button.setObjectName("Compute")
-        button.setToolTip(
-            translate(
-                "VolfrepTaskPanel", "Make the mesh of these values now and stay in this panel"
-            )
+        tip = translate(
+            "VolfrepTaskPanel", "Make the mesh of these values now and stay in this panel"
         )
-        button.clicked.connect(lambda _=False: self.compute())
-        section = QtWidgets.QPushButton(translate("VolfrepTaskPanel", "Section"))
-        section.setObjectName("Section")
-        section.setToolTip(
-            translate(
-                "VolfrepTaskPanel",
-                "Cut the part open on the screen, along a plane that can be moved; once more "
-                "shows it whole",
-            )
+        text = translate("VolfrepTaskPanel", "Compute")
+        button = push_button("Compute", text, self.compute, tip)
+        tip = translate(
+            "VolfrepTaskPanel",
+            "Cut the part open on the screen, along a plane that can be moved; once more "
+            "shows it whole",
         )
-        section.clicked.connect(self._toggle_section)
+        text = translate("VolfrepTaskPanel", "Section")
+        section = push_button("Section", text, self._toggle_section, tip)
         self._buttons = [button, section, self._preview, self._grid]
         column.addLayout(line)
         column.addWidget(colour_field(self._obj.ViewObject, lambda: self._timer.start(0)))
@@ -497,17 +485,14 @@ class TaskPanel:
         is_marked, text = False, localise(text)
         for _, rows, _ in self._boxes:
             is_marked = rows.tell(self._last if wrong else "", text) or is_marked
-        self._figures.setStyleSheet(WRONG if wrong else "")
-        self._figures.setText("" if is_marked else text)
+        self._figures.say("" if is_marked else text, wrong)
         keep_height(self._figures, FIGURES)
 
     def _close(self) -> None:
         self._is_open = False
         self._timer.stop()
         self._picking.end()
-        Gui.Control.closeDialog()
-        if Gui.ActiveDocument is not None:
-            Gui.ActiveDocument.resetEdit()
+        close_panel(self._doc)
 
 
 def end_shown(key: tuple[str, str]) -> None:

@@ -9,7 +9,7 @@ import FreeCAD as App
 import FreeCADGui as Gui
 import numpy as np
 
-from freecad_volfrep import ICONS, preferences
+from freecad_volfrep import preferences
 from freecad_volfrep.features.reports.build_direction import (
     find_directions,
     first_inclination,
@@ -18,16 +18,11 @@ from freecad_volfrep.features.reports.build_direction import (
     turn_part,
 )
 from freecad_volfrep.gui.draw import drawing
-from freecad_volfrep.gui.messages import WRONG, errors_shown
-from freecad_volfrep.gui.qt import CLOSE, QtCore, QtGui, QtWidgets
+from freecad_volfrep.gui.messages import errors_shown
+from freecad_volfrep.gui.qt import CLOSE, QtCore, QtWidgets
 from freecad_volfrep.gui.undo import undo_step
-from freecad_volfrep.gui.widgets.panel_manners import (
-    PanelForm,
-    entitle,
-    fits_any_width,
-    leave_the_wheel,
-)
-from freecad_volfrep.sentences import localise
+from freecad_volfrep.gui.widgets.controls import Message, push_button, table_of_rows
+from freecad_volfrep.gui.widgets.panel_manners import PanelForm, leave_the_wheel
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, spoken, translate
 from volfrep.util.errors import VolfrepError
 
@@ -91,10 +86,10 @@ class OrientPanel:
                 turn_part(self._obj, self._found, chosen)
                 self._doc.recompute()
         except VolfrepError as error:
-            self._say(str(error), wrong=True)
+            self._text.say(str(error), wrong=True)
             return
         self.find()
-        self._say(translate(_CONTEXT, "Turned: z is up, and it stands on z = 0."))
+        self._text.say(translate(_CONTEXT, "Turned: z is up, and it stands on z = 0."))
 
     def check(self) -> None:
         """Let the infill's print checks be of the picked direction, as one undo step."""
@@ -106,18 +101,13 @@ class OrientPanel:
                 checks = set_build_direction(self._obj, chosen.up)
                 self._doc.recompute()
         except VolfrepError as error:
-            self._say(str(error), wrong=True)
+            self._text.say(str(error), wrong=True)
             return
         names = ", ".join(one.Label for one in checks)
-        self._say(translate(_CONTEXT, "{checks}: built along it.").format(checks=names))
+        self._text.say(translate(_CONTEXT, "{checks}: built along it.").format(checks=names))
 
     def _build(self) -> Any:
-        form = PanelForm()
-        form.setObjectName("VolfrepOrientPanel")
-        entitle(form, self._obj.Label)
-        form.setWindowIcon(QtGui.QIcon(str(ICONS / "orient.svg")))
-        column = QtWidgets.QVBoxLayout(form)
-        column.setContentsMargins(0, 0, 0, 0)
+        form = PanelForm("VolfrepOrientPanel", self._obj.Label, "orient")
         line = QtWidgets.QHBoxLayout()
         line.addWidget(QtWidgets.QLabel(translate(_CONTEXT, "Needs support below")))
         self._inclination = QtWidgets.QDoubleSpinBox()
@@ -129,45 +119,32 @@ class OrientPanel:
         self._inclination.setKeyboardTracking(False)
         self._inclination.valueChanged.connect(lambda _: self.find())
         line.addWidget(self._inclination, 1)
-        column.addLayout(line)
-        order = QtWidgets.QLabel(
+        form.column.addLayout(line)
+        order = Message("Order")
+        order.say(
             translate(
                 _CONTEXT, "Least cost first: overhang, supports, height, footprint off the plate"
             )
         )
-        fits_any_width(order)
-        column.addWidget(order)
-        self._table = QtWidgets.QTableWidget(0, len(HEADS))
-        self._table.setObjectName("Directions")
-        self._table.setHorizontalHeaderLabels([translate(_CONTEXT, head) for head in HEADS])
-        self._table.setSelectionBehavior(QtWidgets.QAbstractItemView.SelectRows)
-        self._table.setSelectionMode(QtWidgets.QAbstractItemView.SingleSelection)
-        self._table.setEditTriggers(QtWidgets.QAbstractItemView.NoEditTriggers)
+        form.column.addWidget(order)
+        self._table = table_of_rows("Directions", (translate(_CONTEXT, head) for head in HEADS))
         columns = self._table.horizontalHeader()
+        columns.setStretchLastSection(False)  # it would be a pixel too wide
         columns.setSectionResizeMode(QtWidgets.QHeaderView.ResizeToContents)
         columns.setSectionResizeMode(len(HEADS) - 1, QtWidgets.QHeaderView.Stretch)
         self._table.currentCellChanged.connect(lambda *_: self._pick())
-        column.addWidget(self._table, 1)
-        self._text = QtWidgets.QLabel()
-        self._text.setObjectName("Figures")
-        fits_any_width(self._text)
-        column.addWidget(self._text)
-        self._buttons = []
-        for name, text, act in (
-            ("Turn", translate(_CONTEXT, "Turn Part"), self.turn),
-            ("Check", translate(_CONTEXT, "Set Build Direction"), self.check),
-        ):
-            button = QtWidgets.QPushButton(text)
-            button.setObjectName(name)
-            button.setAutoDefault(False)
-            button.clicked.connect(lambda _=False, act=act: act())
+        form.column.addWidget(self._table, 1)
+        self._text = Message("Figures")
+        form.column.addWidget(self._text)
+        tip = translate(_CONTEXT, "The part stays; its print checks look along this direction")
+        self._buttons = [
+            push_button("Turn", translate(_CONTEXT, "Turn Part"), self.turn),
+            push_button("Check", translate(_CONTEXT, "Set Build Direction"), self.check, tip),
+        ]
+        for button in self._buttons:
             button.setEnabled(False)
-            column.addWidget(button)
-            self._buttons.append(button)
+            form.column.addWidget(button)
         self._buttons[1].setVisible(is_infill(self._obj))
-        self._buttons[1].setToolTip(
-            translate(_CONTEXT, "The part stays; its print checks look along this direction")
-        )
         leave_the_wheel(form, [self._inclination])
         return form
 
@@ -220,7 +197,7 @@ class OrientPanel:
         }  # fmt: skip
         told = {name: figure(value, 4) for name, value in figures.items()}
         up = "; ".join(spoken(f"{part:.2f}") for part in chosen.up)
-        self._say(text.format(up=up, **told))
+        self._text.say(text.format(up=up, **told))
         self._clear()
         low, high = found.mesh.bounds
         middle, reach = (low + high) / 2.0, ARROW * float(np.linalg.norm(high - low))
@@ -254,10 +231,6 @@ class OrientPanel:
         if self._node is not None:
             self._scene.removeChild(self._node)
             self._node = None
-
-    def _say(self, text: str, wrong: bool = False) -> None:
-        self._text.setStyleSheet(WRONG if wrong else "")
-        self._text.setText(localise(text))
 
 
 def open_orientations(obj: App.DocumentObject) -> None:

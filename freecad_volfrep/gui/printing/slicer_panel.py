@@ -8,7 +8,6 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep import ICONS
 from freecad_volfrep.features.export.slicer_infill import (
     FOLLOWS,
     MATERIALS,
@@ -16,17 +15,16 @@ from freecad_volfrep.features.export.slicer_infill import (
     source_of,
 )
 from freecad_volfrep.features.properties.quantities import mass_of
-from freecad_volfrep.gui.messages import WRONG
-from freecad_volfrep.gui.qt import OK_CANCEL, QtGui, QtWidgets
+from freecad_volfrep.gui.qt import OK_CANCEL, QtWidgets
+from freecad_volfrep.gui.widgets.controls import Message, push_button
 from freecad_volfrep.gui.widgets.file_field import FileField
 from freecad_volfrep.gui.widgets.panel_manners import (
     PanelForm,
-    entitle,
+    close_panel,
     fits_any_width,
     leave_the_wheel,
     narrow,
 )
-from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, translate
 from volfrep.design.banded_infill import FEWEST_BANDS, MOST, MOST_BANDS
 from volfrep.design.banded_words import PATTERNS
@@ -141,7 +139,7 @@ class SlicerPanel:
         """Cut the bands of the values that the panel shows; says here what is wrong."""
         self._write()
         holds = self._obj.Proxy.update(self._obj)
-        self._say("" if holds else self._obj.Status, wrong=not holds)
+        self._text.say("" if holds else self._obj.Status, wrong=not holds)
         if holds and self._obj.Base is not None:
             self._obj.Base.Visibility = False
         self._show_bands()
@@ -149,18 +147,10 @@ class SlicerPanel:
 
     def _close(self) -> None:
         Gui.Selection.removeObserver(self)
-        Gui.Control.closeDialog()
-        gui = Gui.getDocument(self._doc.Name)
-        if gui is not None and gui.getInEdit() is not None:
-            gui.resetEdit()
+        close_panel(self._doc)
 
     def _build(self) -> Any:
-        form = PanelForm()
-        form.setObjectName("VolfrepSlicerPanel")
-        entitle(form, self._obj.Label)
-        form.setWindowIcon(QtGui.QIcon(str(ICONS / "slicer_infill.svg")))
-        column = QtWidgets.QVBoxLayout(form)
-        column.setContentsMargins(0, 0, 0, 0)
+        form = PanelForm("VolfrepSlicerPanel", self._obj.Label, "slicer_infill")
         self._rows: dict[str, Any] = {}
         words = [translate("VolfrepSlicer", text) for text in _LABELS.values()]
         self._width = 4 + max(form.fontMetrics().boundingRect(word).width() for word in words)
@@ -182,12 +172,9 @@ class SlicerPanel:
             rows.setSpacing(2)
             for name in names:
                 self._add(rows, name)
-            column.addWidget(box)
-        button = QtWidgets.QPushButton(translate("VolfrepSlicer", "Show Bands"))
-        button.setObjectName("ShowBands")
-        button.setAutoDefault(False)
-        button.clicked.connect(lambda _=False: self.cut())
-        column.addWidget(button)
+            form.column.addWidget(box)
+        show = push_button("ShowBands", translate("VolfrepSlicer", "Show Bands"), self.cut)
+        form.column.addWidget(show)
         self._table = QtWidgets.QLabel()
         self._table.setObjectName("BandTable")
         self._table.setContentsMargins(6, 2, 6, 2)
@@ -199,12 +186,10 @@ class SlicerPanel:
             )
         )
         fits_any_width(self._table)
-        column.addWidget(self._table)
-        self._text = QtWidgets.QLabel()
-        self._text.setObjectName("Said")
-        fits_any_width(self._text)
-        column.addWidget(self._text)
-        column.addStretch()
+        form.column.addWidget(self._table)
+        self._text = Message("Said")
+        form.column.addWidget(self._text)
+        form.column.addStretch()
         leave_the_wheel(form, (self._fields[name] for name in self._fields if name != "FieldFile"))
         return form
 
@@ -360,10 +345,6 @@ class SlicerPanel:
             solid=figure(obj.SolidVolume.Value / 1000.0, 4), even=figure(obj.EvenDensity, 3),
         )  # fmt: skip
         self._table.setText(f"<table>{table}</table><p>{note}</p>")
-
-    def _say(self, text: str, wrong: bool = False) -> None:
-        self._text.setStyleSheet(WRONG if wrong else "")
-        self._text.setText(localise(text))
 
 
 def _nearest_axis(vector: App.Vector) -> int:

@@ -30,6 +30,7 @@ from freecad_volfrep.features.sizing.document_loads import (
 )
 from freecad_volfrep.gui.panel.property_fields import PlainNumber
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep.gui.widgets.controls import push_button
 from freecad_volfrep.gui.widgets.panel_manners import fits_any_width, keep_height, narrow
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 
@@ -76,9 +77,9 @@ class LoadsBox(QtWidgets.QGroupBox):
         self._cases.setToolTip(
             translate("VolfrepSizePanel", "Analyses of the FEM workbench: each is a load case")
         )
-        self._new = QtWidgets.QPushButton(translate("VolfrepLoads", "New case"))
-        self._new.setObjectName("NewCase")
-        self._new.setToolTip(translate("VolfrepLoads", "Another case, held as this one is"))
+        tip = translate("VolfrepLoads", "Another case, held as this one is")
+        text = translate("VolfrepLoads", "New case")
+        self._new = push_button("NewCase", text, self._add_case, tip)
         self._hint = QtWidgets.QLabel()
         self._hint.setObjectName("Hint")
         fits_any_width(self._hint)
@@ -86,8 +87,8 @@ class LoadsBox(QtWidgets.QGroupBox):
         self._loads = QtWidgets.QListWidget()
         self._loads.setObjectName("Loads")
         self._loads.setMaximumHeight(LOADS)
-        self._remove = QtWidgets.QPushButton(translate("VolfrepLoads", "Remove"))
-        self._remove.setObjectName("RemoveLoad")
+        text = translate("VolfrepLoads", "Remove")
+        self._remove = push_button("RemoveLoad", text, self._take_away)
         self.size = PlainNumber()
         self.size.setObjectName("LoadSize")
         self.size.setAccessibleName(translate("VolfrepLoads", "Size"))
@@ -121,8 +122,6 @@ class LoadsBox(QtWidgets.QGroupBox):
         self._cases.setCurrentRow(0)
         self._cases.currentRowChanged.connect(lambda _: self._show_loads())
         self._loads.currentRowChanged.connect(lambda _: self._show_load())
-        self._new.clicked.connect(lambda _=False: self._add_case())
-        self._remove.clicked.connect(lambda _=False: self._take_away())
         self.size.valueChanged.connect(self._set_size)
         self.direction.currentIndexChanged.connect(lambda _: self._set_direction())
         self._show_loads()

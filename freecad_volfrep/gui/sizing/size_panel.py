@@ -21,21 +21,19 @@ from freecad_volfrep.features.sizing.sizing import (
 )
 from freecad_volfrep.gui.colours.colour_dock import close_struts, open_struts
 from freecad_volfrep.gui.jobs.updating import begin_update, show_mesh
-from freecad_volfrep.gui.messages import WRONG
 from freecad_volfrep.gui.panel.property_fields import PropertyFields, label_of
 from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
+from freecad_volfrep.gui.widgets.controls import Message, push_button, table_of_rows
 from freecad_volfrep.gui.widgets.panel_manners import (
     PanelForm,
     bring_into_sight,
-    entitle,
-    fits_any_width,
+    close_panel,
     leave_the_wheel,
     number_width,
 )
 from freecad_volfrep.gui.widgets.printed_table import PrintedTableFields
 from freecad_volfrep.gui.windows.plot_window import show_plot
 from freecad_volfrep.gui.windows.report_window import show_report
-from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, spoken, translate
 from volfrep.util.errors import Cancelled, VolfrepError
 
@@ -182,11 +180,13 @@ class SizePanel:
         self._loads.end(is_kept=True)
         self._doc.commitTransaction()
         self._close()
-        title = translate("VolfrepSizePanel", "Loads and Sizing: {label}").format(
-            label=self._obj.Label
-        )
-        show_report(title, f"{self._obj.Label} sizing", outcome.tables())
+        show_report(self._title, f"{self._obj.Label} sizing", outcome.tables())
         return True
+
+    @property
+    def _title(self) -> str:
+        text = translate("VolfrepSizePanel", "Loads and Sizing: {label}")
+        return str(text.format(label=self._obj.Label))
 
     def _begin_loads(self) -> None:
         if self._is_open:
@@ -253,47 +253,28 @@ class SizePanel:
             show_plot(title.format(label=self._obj.Label), sizing_plot(self._outcome.part.report))
 
     def _build(self, first: Mapping[str, float]) -> Any:
-        form = PanelForm()
-        form.setObjectName("VolfrepSizePanel")
-        title = translate("VolfrepSizePanel", "Loads and Sizing: {label}")
-        entitle(form, title.format(label=self._obj.Label))
-        column = QtWidgets.QVBoxLayout(form)
-        column.setContentsMargins(0, 0, 0, 0)
+        form = PanelForm("VolfrepSizePanel", self._title)
         self._loads = LoadsBox(self._obj)
         self._lists = [self._loads.size, self._loads.direction]
         for box in (self._loads, self._material_box(), self._goal_box(first)):
-            column.addWidget(box)
-        self._table = QtWidgets.QTableWidget(0, len(HEADER))
-        self._table.setObjectName("Steps")
-        self._table.setHorizontalHeaderLabels(
-            [translate("VolfrepSizePanel", text) for text in HEADER]
-        )
+            form.column.addWidget(box)
+        heads = (translate("VolfrepSizePanel", text) for text in HEADER)
+        self._table = table_of_rows("Steps", heads)
         self._table.verticalHeader().setVisible(False)
-        self._table.setEditTriggers(QtWidgets.QAbstractItemView.NoEditTriggers)
-        self._table.horizontalHeader().setStretchLastSection(True)
         self._table.setMinimumHeight(160)
-        self._said = QtWidgets.QLabel()
-        self._said.setObjectName("Said")
-        fits_any_width(self._said)
-        button = QtWidgets.QPushButton(translate("VolfrepSizePanel", "Find radii"))
-        button.setObjectName("Size")
-        button.setToolTip(
-            translate(
-                "VolfrepSizePanel",
-                "Find the radii now and stay in this panel; Cancel in the status bar keeps the "
-                "best design so far",
-            )
+        self._said = Message("Said")
+        tip = translate(
+            "VolfrepSizePanel",
+            "Find the radii now and stay in this panel; Cancel in the status bar keeps the "
+            "best design so far",
         )
-        button.clicked.connect(lambda _=False: self.size())
-        self._plot = QtWidgets.QPushButton(translate("VolfrepSizePanel", "Plot"))
-        self._plot.setObjectName("Plot")
-        self._plot.setToolTip(
-            translate("VolfrepSizePanel", "How mass and limits went, step by step")
-        )
+        find = push_button("Size", translate("VolfrepSizePanel", "Find radii"), self.size, tip)
+        tip = translate("VolfrepSizePanel", "How mass and limits went, step by step")
+        text = translate("VolfrepSizePanel", "Plot")
+        self._plot = push_button("Plot", text, self._show_plot, tip)
         self._plot.setEnabled(False)
-        self._plot.clicked.connect(lambda _=False: self._show_plot())
-        for widget in (button, self._said, self._table, self._plot):
-            column.addWidget(widget)
+        for widget in (find, self._said, self._table, self._plot):
+            form.column.addWidget(widget)
         leave_the_wheel(
             form, [*self._lists, self._goal, *(field for _, field in self._fields.values())]
         )
@@ -477,8 +458,7 @@ class SizePanel:
         self._table.scrollToBottom()
 
     def _say(self, text: str, wrong: bool = False) -> None:
-        self._said.setStyleSheet(WRONG if wrong else "")
-        self._said.setText(localise(text))
+        self._said.say(text, wrong)
         if wrong:
             # OK is far above: nobody would see it.
             QtCore.QTimer.singleShot(0, self._show_said)
@@ -490,9 +470,7 @@ class SizePanel:
     def _close(self) -> None:
         self._is_open = False
         self._timer.stop()
-        Gui.Control.closeDialog()
-        if Gui.ActiveDocument is not None:
-            Gui.ActiveDocument.resetEdit()
+        close_panel(self._doc)
 
 
 def _step_in_words(step: tuple[str, ...]) -> tuple[str, ...]:

@@ -10,7 +10,6 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep import ICONS
 from freecad_volfrep.features.infill.live_preview import LivePreview
 from freecad_volfrep.features.study.design_study import (
     apply_design,
@@ -25,18 +24,13 @@ from freecad_volfrep.features.study.design_study import (
     variable,
     varied_of_study,
 )
-from freecad_volfrep.gui.messages import WRONG, tell_error
+from freecad_volfrep.gui.messages import tell_error
 from freecad_volfrep.gui.panel.property_fields import label_of
 from freecad_volfrep.gui.qt import CLOSE, QtCore, QtGui, QtWidgets
 from freecad_volfrep.gui.undo import undo_step
 from freecad_volfrep.gui.view.preview_view import PreviewView
-from freecad_volfrep.gui.widgets.panel_manners import (
-    PanelForm,
-    entitle,
-    fits_any_width,
-    leave_the_wheel,
-)
-from freecad_volfrep.sentences import localise
+from freecad_volfrep.gui.widgets.controls import Message, push_button
+from freecad_volfrep.gui.widgets.panel_manners import PanelForm, close_panel, leave_the_wheel
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, translate
 from volfrep.util.errors import VolfrepError
 
@@ -106,26 +100,23 @@ class StudyPanel:
     def reject(self) -> bool:
         """Close."""
         self._show_infill()
-        Gui.Control.closeDialog()
-        gui = Gui.getDocument(self._doc.Name)
-        if gui is not None and gui.getInEdit() is not None:
-            gui.resetEdit()
+        close_panel(self._doc)
         return True
 
     def start(self) -> None:
         """Run what is missing of the study that the panel shows, as one undo step."""
-        self._say("")
+        self._text.say("")
         self._show_infill()
         try:
             with undo_step(self._doc, translate("VOLFREP_DesignStudy", "Design Study")):
                 self._write()
                 done = run_study(self._obj)
         except VolfrepError as error:
-            self._say(str(error), wrong=True)
+            self._text.say(str(error), wrong=True)
             return
         self._show_table()
         if not done or self._obj.Refused:
-            self._say("\n".join([self._obj.Status, *self._obj.Refused[:3]]), wrong=not done)
+            self._text.say("\n".join([self._obj.Status, *self._obj.Refused[:3]]), wrong=not done)
 
     def apply(self) -> None:
         """Give the design that was picked to the infill, as one undo step."""
@@ -137,9 +128,9 @@ class StudyPanel:
             with undo_step(self._doc, step):
                 went_well = apply_design(self._obj, self._picked["key"])
         except VolfrepError as error:
-            self._say(str(error), wrong=True)
+            self._text.say(str(error), wrong=True)
             return
-        self._say(self._obj.Infill.Status, wrong=not went_well)
+        self._text.say(self._obj.Infill.Status, wrong=not went_well)
 
     def open_page(self) -> None:
         """Show the study's page in the browser."""
@@ -147,23 +138,18 @@ class StudyPanel:
         QtGui.QDesktopServices.openUrl(QtCore.QUrl.fromLocalFile(str(page)))
 
     def _build(self) -> Any:
-        form = PanelForm()
-        form.setObjectName("VolfrepStudyPanel")
-        entitle(form, self._obj.Label)
-        form.setWindowIcon(QtGui.QIcon(str(ICONS / "design_study.svg")))
-        column = QtWidgets.QVBoxLayout(form)
-        column.setContentsMargins(0, 0, 0, 0)
+        form = PanelForm("VolfrepStudyPanel", self._obj.Label, "design_study")
         box = QtWidgets.QGroupBox(translate("VolfrepStudy", "What varies"))
         rows = QtWidgets.QGridLayout(box)
         rows.setContentsMargins(6, 4, 6, 4)
         self._known = {p.property_name: p for p in variable(self._obj.Infill)}
         self._rows = [self._row(rows, number) for number in range(ROWS)]
-        column.addWidget(box)
+        form.column.addWidget(box)
         self._fill = QtWidgets.QCheckBox(translate("VolfrepStudy", "Mesh and measure every design"))
         self._fill.setObjectName("Fill")
         self._fill.setChecked(self._obj.Fill)
         self._fill.toggled.connect(lambda _: self._show_count())
-        column.addWidget(self._fill)
+        form.column.addWidget(self._fill)
         line = QtWidgets.QHBoxLayout()
         self._count = QtWidgets.QLabel()
         self._count.setObjectName("Count")
@@ -172,29 +158,24 @@ class StudyPanel:
         self._settles.setSingleShot(True)
         self._settles.timeout.connect(self._show_time)
         self._show_count()
-        self._button(line, "Start", translate("VolfrepStudy", "Start"), self.start)
-        column.addLayout(line)
+        line.addWidget(push_button("Start", translate("VolfrepStudy", "Start"), self.start))
+        form.column.addLayout(line)
         self._plot = StudyPlot(self._pick)
-        column.addWidget(self._plot, 1)
+        form.column.addWidget(self._plot, 1)
         line = QtWidgets.QHBoxLayout()
         self._across, self._up = (self._axis(line, name) for name in ("Across", "Up"))
-        column.addLayout(line)
-        self._text = QtWidgets.QLabel()
-        self._text.setObjectName("Picked")
-        fits_any_width(self._text)
-        column.addWidget(self._text)
+        form.column.addLayout(line)
+        self._text = Message("Picked")
+        form.column.addWidget(self._text)
         line = QtWidgets.QHBoxLayout()
-        self._applies = self._button(line, "Apply", translate("VolfrepStudy", "Apply"), self.apply)
-        self._applies.setToolTip(
-            translate("VolfrepStudy", "Give this design to the infill, as one undo step")
-        )
-        self._page = self._button(
-            line, "Page", translate("VolfrepStudy", "Open report"), self.open_page
-        )
-        self._page.setToolTip(
-            translate("VolfrepStudy", "Show the table and all plots in the browser")
-        )
-        column.addLayout(line)
+        tip = translate("VolfrepStudy", "Give this design to the infill, as one undo step")
+        self._applies = push_button("Apply", translate("VolfrepStudy", "Apply"), self.apply, tip)
+        tip = translate("VolfrepStudy", "Show the table and all plots in the browser")
+        text = translate("VolfrepStudy", "Open report")
+        self._page = push_button("Page", text, self.open_page, tip)
+        for button in (self._applies, self._page):
+            line.addWidget(button)
+        form.column.addLayout(line)
         leave_the_wheel(form, [self._across, self._up, *(name for name, _ in self._rows)])
         return form
 
@@ -233,14 +214,6 @@ class StudyPanel:
         choice.currentIndexChanged.connect(lambda _: self._show_plot())
         line.addWidget(choice, 1)
         return choice
-
-    def _button(self, line: Any, name: str, text: str, act: Any) -> Any:
-        button = QtWidgets.QPushButton(text)
-        button.setObjectName(name)
-        button.setAutoDefault(False)
-        button.clicked.connect(lambda _=False: act())
-        line.addWidget(button)
-        return button
 
     def _lines(self) -> list[str]:
         """What varies, as the object has it."""
@@ -299,7 +272,7 @@ class StudyPanel:
         self._picked = None
         self._applies.setEnabled(False)
         self._page.setEnabled((Path(self._obj.Folder or "/none") / "index.html").is_file())
-        self._say(self._obj.Status if rows else "")  # the plot itself says that there are none
+        self._text.say(self._obj.Status if rows else "")  # the plot itself says that there are none
         self._show_plot()
 
     def _show_plot(self) -> None:
@@ -318,7 +291,7 @@ class StudyPanel:
         for axis in (self._across, self._up):
             name, _, unit = self._in_words(axis.currentData()).partition(", ")
             values.append(f"{name} {_shown(row[axis.currentData()])} {unit}".rstrip())
-        self._say(", ".join(values))
+        self._text.say(", ".join(values))
         self._show_design(row["key"])
 
     def _show_design(self, key: str) -> None:
@@ -327,7 +300,7 @@ class StudyPanel:
             shown = shown_design(self._obj, key, self._live)
         except VolfrepError as error:
             self._show_infill()
-            self._say(str(error), wrong=True)
+            self._text.say(str(error), wrong=True)
             return
         infill = self._obj.Infill
         if self._view is None:
@@ -354,10 +327,6 @@ class StudyPanel:
         words = str(translate("VolfrepStudy", WORDS[name])) if name in WORDS else name
         unit = unit_of_moduli(self._obj) if name in MODULI else ""
         return ", ".join(filter(None, (words, unit and translate("VolfrepStudy", unit))))
-
-    def _say(self, text: str, wrong: bool = False) -> None:
-        self._text.setStyleSheet(WRONG if wrong else "")
-        self._text.setText(localise(text))
 
 
 def open_study(obj: App.DocumentObject) -> bool:

@@ -9,6 +9,8 @@ from typing import Any
 from freecad_volfrep.gui.qt import QtWidgets
 from freecad_volfrep.translation import translate
 
+from .controls import push_button
+
 _MOST = 1e12
 
 
@@ -23,12 +25,9 @@ class ColourRange(QtWidgets.QWidget):
         super().__init__()
         self._changed = changed
         self._low, self._high = (_number(name) for name in ("From", "To"))
-        button = QtWidgets.QPushButton(translate("VolfrepColours", "Automatic"))
-        button.setObjectName("Automatic")
-        button.setToolTip(
-            translate("VolfrepColours", "From the smallest to the largest of the values")
-        )
-        button.clicked.connect(lambda _=False: changed(0.0, 0.0))
+        tip = translate("VolfrepColours", "From the smallest to the largest of the values")
+        text = translate("VolfrepColours", "Automatic")
+        button = push_button("Automatic", text, lambda: changed(0.0, 0.0), tip)
         line = QtWidgets.QHBoxLayout(self)
         line.setContentsMargins(0, 0, 0, 0)
         for widget in (

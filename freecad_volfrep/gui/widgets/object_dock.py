@@ -12,6 +12,8 @@ import FreeCADGui as Gui
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.translation import translate
 
+from .controls import push_button
+
 _Dock = TypeVar("_Dock", bound="ObjectDock")
 
 
@@ -48,9 +50,7 @@ class ObjectDock(QtWidgets.QDockWidget):
         for widget in widgets:
             line.addWidget(widget)
         line.addStretch()
-        close = QtWidgets.QPushButton(translate("VolfrepCells", "Close"))
-        close.setObjectName("CloseDock")
-        close.clicked.connect(lambda _=False: self.close())
+        close = push_button("CloseDock", translate("VolfrepCells", "Close"), self.close)
         line.addWidget(close)
         column.addLayout(line)
         self.setWidget(panel)

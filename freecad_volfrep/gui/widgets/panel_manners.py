@@ -6,9 +6,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep import ICONS
+from freecad_volfrep.gui.qt import QtCore, QtGui, QtWidgets
 
 #: The longest title: FreeCAD widens a panel until its title has room.
 LONGEST_TITLE = 28
@@ -18,12 +20,27 @@ LONGEST_NUMBER, SIGNS = "100.00 mm", 46
 
 
 class PanelForm(QtWidgets.QWidget):
-    """A panel that Enter in one of its fields does not close, as FreeCAD's would by its OK."""
+    """The frame of a panel, which Enter in one of its fields does not close, as FreeCAD's would.
 
-    def __init__(self) -> None:
+    Args:
+        name: that it is found by.
+        title: shortened in its middle where it is long: the tree has all of it.
+        icon: of its title: a file's name in `resources/icons`, without its suffix.
+    """
+
+    def __init__(self, name: str, title: str, icon: str = "") -> None:
         super().__init__()
+        self.setObjectName(name)
         # A theme's style sheet fills a plain QWidget, but none of its subclasses unasked.
         self.setAttribute(QtCore.Qt.WA_StyledBackground)
+        ends = LONGEST_TITLE // 2 - 1
+        is_short = len(title) <= LONGEST_TITLE
+        self.setWindowTitle(title if is_short else f"{title[:ends]}\u2026{title[-ends:]}")
+        if icon:
+            self.setWindowIcon(QtGui.QIcon(str(ICONS / f"{icon}.svg")))
+        #: What the panel shows, from above.
+        self.column = QtWidgets.QVBoxLayout(self)
+        self.column.setContentsMargins(0, 0, 0, 0)
 
     def keyPressEvent(self, event: Any) -> None:  # noqa: N802
         """Called by Qt with the keys that no field has taken."""
@@ -84,11 +101,12 @@ def number_width(field: Any) -> int:
     return int(field.fontMetrics().boundingRect(LONGEST_NUMBER).width()) + SIGNS
 
 
-def entitle(form: Any, title: str) -> None:
-    """Give a panel a title, shortened in its middle where it is long: the tree has all of it."""
-    ends = LONGEST_TITLE // 2 - 1
-    short = title if len(title) <= LONGEST_TITLE else f"{title[:ends]}\u2026{title[-ends:]}"
-    form.setWindowTitle(short)
+def close_panel(doc: App.Document) -> None:
+    """Close the open task panel, and end the editing of an object of `doc` that it was for."""
+    Gui.Control.closeDialog()
+    gui = Gui.getDocument(doc.Name)
+    if gui is not None and gui.getInEdit() is not None:
+        gui.resetEdit()
 
 
 def fits_any_width(label: Any) -> None:

@@ -3,12 +3,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import FreeCADGui as Gui
 
 from freecad_volfrep import DOCS
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep.gui.widgets.controls import push_button
 from freecad_volfrep.translation import translate
 
 #: A page for each command, by the command's name, and one that lists them.
@@ -23,8 +22,8 @@ def page_address(command: str) -> str:
     return (PAGES / f"{command}.md").as_uri()
 
 
-def show_help(page: Path = INDEX) -> QtWidgets.QDialog:
-    """Open a window that shows a page; links lead to the others."""
+def show_help() -> QtWidgets.QDialog:
+    """Open a window that shows the index; links lead to the others."""
     window = QtWidgets.QDialog(Gui.getMainWindow())
     window.setObjectName("VolfrepHelp")
     window.setWindowTitle(translate("VOLFREP_Help", "VOLFREP Help"))
@@ -32,18 +31,14 @@ def show_help(page: Path = INDEX) -> QtWidgets.QDialog:
     window.resize(*SIZE)
     text = QtWidgets.QTextBrowser()
     text.setOpenExternalLinks(False)
-    text.setSource(QtCore.QUrl.fromLocalFile(str(page)))
+    text.setSource(QtCore.QUrl.fromLocalFile(str(INDEX)))
     column = QtWidgets.QVBoxLayout(window)
     line = QtWidgets.QHBoxLayout()
     for name, label, act in (
         ("Back", translate("VolfrepHelp", "Back"), text.backward),
         ("Contents", translate("VolfrepHelp", "Contents"), text.home),
     ):
-        button = QtWidgets.QPushButton(label)
-        button.setObjectName(name)
-        button.setAutoDefault(False)
-        button.clicked.connect(lambda _=False, act=act: act())
-        line.addWidget(button)
+        line.addWidget(push_button(name, label, act))
     line.addStretch()
     column.addLayout(line)
     column.addWidget(text)

@@ -13,6 +13,7 @@ from freecad_volfrep.deps import (
     missing_optional,
 )
 from freecad_volfrep.gui.qt import QtCore, QtGui, QtWidgets
+from freecad_volfrep.gui.widgets.controls import push_button
 from freecad_volfrep.gui.widgets.panel_manners import fits_any_width
 from freecad_volfrep.translation import translate
 
@@ -64,13 +65,13 @@ class InstallWindow(QtWidgets.QDialog):
         column.addWidget(self._output)
         line = QtWidgets.QHBoxLayout()
         line.addStretch()
-        self._install = self._button("Install", translate("VolfrepInstall", "&Install"), line)
-        self._install.clicked.connect(lambda _=False: self.install())
+        text = translate("VolfrepInstall", "&Install")
+        self._install = push_button("Install", text, self.install)
         self._install.setDefault(True)
-        copy = self._button("Copy", translate("VolfrepInstall", "&Copy Command"), line)
-        copy.clicked.connect(lambda _=False: self.copy())
-        close = self._button("Close", translate("VolfrepInstall", "C&lose"), line)
-        close.clicked.connect(lambda _=False: self.close())
+        copy = push_button("Copy", translate("VolfrepInstall", "&Copy Command"), self.copy)
+        close = push_button("Close", translate("VolfrepInstall", "C&lose"), self.close)
+        for button in (self._install, copy, close):
+            line.addWidget(button)
         column.addLayout(line)
         self._process = QtCore.QProcess(self)
         self._process.setProcessChannelMode(QtCore.QProcess.MergedChannels)
@@ -100,13 +101,6 @@ class InstallWindow(QtWidgets.QDialog):
         self._process.kill()
         self._process.waitForFinished()
         super().closeEvent(event)
-
-    def _button(self, name: str, text: str, line: QtWidgets.QHBoxLayout) -> QtWidgets.QPushButton:
-        button = QtWidgets.QPushButton(text)
-        button.setObjectName(name)
-        button.setAutoDefault(False)
-        line.addWidget(button)
-        return button
 
     def _show_output(self) -> None:
         text = bytes(self._process.readAll().data()).decode("utf-8", "replace")

@@ -9,6 +9,7 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.gui.messages import show_error
 from freecad_volfrep.gui.qt import QtCore, QtGui, QtSvg, QtWidgets
+from freecad_volfrep.gui.widgets.controls import push_button
 from freecad_volfrep.gui.widgets.plot_colours import in_theme, plot_colours
 from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
@@ -42,9 +43,7 @@ class PlotWindow(QtWidgets.QDialog):
         shown = QtWidgets.QLabel()
         shown.setObjectName("Plot")
         shown.setPixmap(picture)
-        save = QtWidgets.QPushButton(translate("VolfrepReport", "Save..."))
-        save.setObjectName("Save")
-        save.clicked.connect(lambda _=False: self._save())
+        save = push_button("Save", translate("VolfrepReport", "Save..."), self._save)
         column = QtWidgets.QVBoxLayout(self)
         column.addWidget(shown)
         column.addWidget(save, 0, QtCore.Qt.AlignRight)

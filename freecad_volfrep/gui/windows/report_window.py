@@ -11,6 +11,7 @@ from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
 from freecad_volfrep.features.reports.tables import Table, as_csv, as_html
 from freecad_volfrep.gui.messages import errors_shown, file_name, tell, tell_written
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep.gui.widgets.controls import push_button
 from freecad_volfrep.sentences import localise_cell
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
 from volfrep.util.files import replacing
@@ -94,11 +95,7 @@ class ReportWindow(QtWidgets.QDialog):
         line = QtWidgets.QHBoxLayout()
         line.addStretch()
         for label, act in ((COPY, self.copy), (SAVE, self.ask_and_save), (CLOSE, self.close)):
-            button = QtWidgets.QPushButton(translate("VolfrepReport", label))
-            button.setObjectName(label)
-            button.setAutoDefault(False)
-            button.clicked.connect(lambda _=False, act=act: act())
-            line.addWidget(button)
+            line.addWidget(push_button(label, translate("VolfrepReport", label), act))
         column.addLayout(line)
 
     def copy(self) -> None:

@@ -134,7 +134,7 @@ def _fill(given: argparse.Namespace) -> None:
             solid, spec, progress=progress, meshed=meshed, executor=executor,
             streamed=options.is_plain,
         )  # fmt: skip
-        if options.form.name != "stl":  # which they help to write
+        if not options.form.octants_by:  # which they would help to write
             made.ahead = lambda _: let_go(executor)  # all groups are cut
         _make(FilledPart(made, progress=progress), options, start, {"read": read_seconds})
 
@@ -232,7 +232,7 @@ def _block(given: argparse.Namespace) -> None:
         block = solve_block_target(options.spec, count, meshed=meshed)
         before = {"target": time.perf_counter() - start}
     spec = block.spec
-    streamed = options.is_plain and options.form.name == "stl"
+    streamed = options.is_plain and bool(options.form.octants_by)
     if meshed:
         spec.kind.refuse_crossing()
         if not options.quiet:

@@ -84,6 +84,23 @@ class ContinuumModel:
         """(n, 3) mm."""
         return self.loaded.nodes
 
+    @property
+    def middle(self) -> Floats:
+        """(6, 24) strain in the middle of a brick from its nodes' displacements."""
+        middle: Floats = self.bricks.strains(np.full((1, 3), 0.5))[0]
+        return middle
+
+    def cell_stress(self, own: Floats) -> Floats:
+        """(e, 6) MPa of the lattice in the cells' axes, from (e, 24) displacements."""
+        stress = (self.lattice @ (own @ self.middle.T)[:, :, None])[:, :, 0]
+        return in_cell(stress, np.broadcast_to(self.frames, (len(own), 3, 3)))
+
+    def at_nodes(self, each: Floats) -> Floats:
+        """(n, 3) sums over the bricks about each node of their (e, 24) forces."""
+        result = np.zeros((len(self.nodes), 3))
+        np.add.at(result, self.elements.nodes.ravel(), each.reshape(-1, 3))
+        return result
+
 
 @dataclass(frozen=True, eq=False)
 class ContinuumState:
@@ -115,7 +132,6 @@ def solve_continuum(
     model: ContinuumModel,
     cases: Sequence[LoadCase],
     monitor: Monitor | None = None,
-    tolerance: float = 1e-6,
     warm: Floats | None = None,
 ) -> list[ContinuumState]:
     """Solve load cases: those with equal supports with one solver.
@@ -124,7 +140,6 @@ def solve_continuum(
         model: the part.
         cases: what it carries.
         monitor: asked for a cancel.
-        tolerance: of the forces that are left, over the loads.
         warm: (n,) temperatures of the nodes, for cases that grow by them.
 
     Raises:
@@ -153,12 +168,10 @@ def solve_continuum(
         on_nodes = model.loaded.case(case)
         if case.heated is not None and warm is not None:
             own = free_growth[case.name] = _growth(model, warm, *case.heated)
-            forces = (model.matrices @ own[:, :, None]).reshape(-1, 3)
-            loads = on_nodes.loads.copy()
-            np.add.at(loads, model.elements.nodes.ravel(), forces)
-            on_nodes = replace(on_nodes, loads=loads)
+            forces = model.at_nodes(model.matrices @ own[:, :, None])
+            on_nodes = replace(on_nodes, loads=on_nodes.loads + forces)
         laid.append(on_nodes)
-    return solve_nodal_cases(laid, solver_of, state_of, tolerance)
+    return solve_nodal_cases(laid, solver_of, state_of)
 
 
 def _growth(model: ContinuumModel, warm: Floats, coefficient: float, reference: float) -> Floats:
@@ -186,11 +199,7 @@ def stress_of(model: ContinuumModel, own: Floats) -> tuple[Floats, Floats]:
         model: the part.
         own: (e, 24) displacements of each brick's nodes, mm, beside its growth by heat.
     """
-    strains = model.bricks.strains(np.vstack([[[0.5] * 3], (POINTS + 1.0) / 2.0]))
-    middle = own @ strains[0].T
-    stress = (model.lattice @ middle[:, :, None])[:, :, 0]
-    frames = np.broadcast_to(model.frames, (len(own), 3, 3))
-    local = np.abs(in_cell(stress, frames))
+    local = np.abs(model.cell_stress(own))
     limit = model.material.yield_stress or np.nan
     with np.errstate(divide="ignore", invalid="ignore"):
         use = local[:, :3].sum(axis=1) / model.strength[:, 0]
@@ -199,7 +208,7 @@ def stress_of(model: ContinuumModel, own: Floats) -> tuple[Floats, Floats]:
     law = solid_stiffness(model.material.young, model.material.poisson)
     some = np.flatnonzero(model.shares.solid.max(axis=1) > LEAST_SHARE)
     skin = np.zeros(len(own))
-    for table in strains[1:]:
+    for table in model.bricks.strains((POINTS + 1.0) / 2.0):
         skin[some] = np.maximum(skin[some], von_mises(own[some] @ table.T @ law))
     return use, skin
 
@@ -208,7 +217,7 @@ def _pressed(model: ContinuumModel, own: Floats) -> Floats | None:
     """(e,) of the most pressed strut of the lattice; None where that is not known."""
     if model.pressed is None:
         return None
-    strain = own @ model.bricks.strains(np.full((1, 3), 0.5))[0].T
+    strain = own @ model.middle.T
     half = np.array([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
     local = in_cell(strain * half, np.broadcast_to(model.frames, (len(own), 3, 3))) / half
     result = np.zeros(len(own))

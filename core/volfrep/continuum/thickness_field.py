@@ -228,7 +228,7 @@ class _Search:
             if self.limits.use is not None:
                 most = float(one.use.max())
                 slope, near = _norm_slope(one.use)
-                load = _nodal(model, _use_slopes(model, one.own) * (slope * near)[:, None])
+                load = model.at_nodes(_use_slopes(model, one.own) * (slope * near)[:, None])
                 adjoint, _ = one.solver.solve(load, tolerance=10 * ROUGH)
                 after, before = (stress_of(other, one.own)[0] for other in (thick, thin))
                 direct = slope * near * (after - before) / width
@@ -256,25 +256,16 @@ def _norm_slope(values: Floats) -> tuple[Floats, float]:
 
 def _use_slopes(model: ContinuumModel, own: Floats) -> Floats:
     """(e, 24) derivatives of the lattice's share of yield to its bricks' displacements."""
-    middle = model.bricks.strains(np.full((1, 3), 0.5))[0]
-    stress = (model.lattice @ (own @ middle.T)[:, :, None])[:, :, 0]
     frames = np.broadcast_to(model.frames, (len(own), 3, 3))
     limit = model.material.yield_stress or np.nan
     bears = np.repeat(np.broadcast_to(model.strength, (len(own), 2)), 3, axis=1) * limit
     with np.errstate(divide="ignore"):
-        rise = np.sign(in_cell(stress, frames)) / bears
+        rise = np.sign(model.cell_stress(own)) / bears
     local = np.stack(
         [in_cell(np.broadcast_to(one, (len(frames), 6)), frames) for one in np.eye(6)], axis=2
     )
     back = np.einsum("ek,ekj->ej", rise, local)
-    result: Floats = (model.lattice @ back[:, :, None])[:, :, 0] @ middle
-    return result
-
-
-def _nodal(model: ContinuumModel, each: Floats) -> Floats:
-    """(n, 3) of (e, 24)."""
-    result = np.zeros((len(model.nodes), 3))
-    np.add.at(result, model.elements.nodes.ravel(), each.reshape(-1, 3))
+    result: Floats = (model.lattice @ back[:, :, None])[:, :, 0] @ model.middle
     return result
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..mesh.remesh import unit_normals
+from ..mesh.remesh import facet_normals
 from ..mesh.smooth_faces import smooth_faces
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.content import content_of, freeze
@@ -58,7 +58,7 @@ class OpenPlane:
         normal = np.array(self.normal, float) / np.linalg.norm(self.normal)
         size = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
         off = np.abs(along(solid.vertices - np.array(self.point), normal)) < IN_PLANE * size
-        level = np.abs(along(_normals(solid), normal)) > ALONG_PLANE
+        level = np.abs(along(facet_normals(solid), normal)) > ALONG_PLANE
         return np.asarray(off[solid.triangles].all(axis=1) & level)
 
     def __str__(self) -> str:
@@ -100,8 +100,8 @@ class OpenPatch:
 
         _, distance, facet = closest_points(patch, points.reshape(-1, 3))
         near = (distance.reshape(-1, 4) < reach).all(axis=1)
-        towards = _normals(patch)[facet.reshape(-1, 4)[:, 3]]
-        along = np.einsum("ij,ij->i", _normals(some), towards) > ALONG_PATCH
+        towards = facet_normals(patch)[facet.reshape(-1, 4)[:, 3]]
+        along = np.einsum("ij,ij->i", facet_normals(some), towards) > ALONG_PATCH
         result[result] = near & along
         return np.asarray(result)
 
@@ -214,10 +214,6 @@ def lie_on(openings: TriangleMesh, points: Floats, reach: Floats | float = 0.0) 
     from ..spatial.proximity import closest_points
 
     return np.asarray(closest_points(openings, points)[1] <= np.maximum(reach, ON_OPENING * size))
-
-
-def _normals(mesh: TriangleMesh) -> Floats:
-    return unit_normals(mesh.vertices[mesh.triangles])
 
 
 def open_triangles(solid: TriangleMesh, faces: tuple[OpenFace, ...]) -> Bools:

@@ -11,11 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..mesh.remesh import facet_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
 from .load_cases import Force, Load, LoadCase, Pressure
-from .regions import NearPoint, Region, facet_normals, simple_regions
+from .regions import NearPoint, Region, simple_regions
 
 #: Nodes and corners lie in a region when they are nearer to it than this part of the body's size.
 ROUNDING = 1e-4

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..design.openings import OpenPatch
+from ..mesh.remesh import facet_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..util.content import content_of, freeze
@@ -298,15 +299,6 @@ def facet_middles(mesh: TriangleMesh) -> Floats:
     a, b, c = mesh.corners()
     middles: Floats = (a + b + c) / 3.0
     return middles
-
-
-def facet_normals(mesh: TriangleMesh) -> Floats:
-    """(m, 3) unit normals, outwards; zero where a triangle has no area."""
-    a, b, c = mesh.corners()
-    normals = np.cross(b - a, c - a)
-    size = np.linalg.norm(normals, axis=1, keepdims=True)
-    result: Floats = normals / np.maximum(size, np.finfo(float).tiny)
-    return result
 
 
 def _check_vector(name: str, vector: Sequence[float], not_zero: bool = False) -> None:

@@ -19,6 +19,7 @@ from ..util.linalg import normalize
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
 from .topology import among_edges, edge_keys
+from .triangle_mesh import TriangleMesh
 
 #: A triangle may not turn by more than this (cosine) when a neighbour is collapsed or flipped.
 MIN_TURN_COSINE = 0.35
@@ -90,6 +91,11 @@ def normals(points: Floats) -> Floats:
 def unit_normals(points: Floats) -> Floats:
     """(m, 3) unit normals of (m, 3, 3) triangles; zero of those without area."""
     return normalize(normals(points))
+
+
+def facet_normals(mesh: TriangleMesh) -> Floats:
+    """(m, 3) unit normals of a mesh, outwards; zero where a triangle has no area."""
+    return unit_normals(mesh.vertices[mesh.triangles])
 
 
 def heights(points: Floats) -> Floats:

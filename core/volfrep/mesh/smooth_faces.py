@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..util.types import Ints
+from .remesh import facet_normals
 from .topology import edges_of, pieces_of
 from .triangle_mesh import TriangleMesh
 
@@ -13,23 +14,20 @@ from .triangle_mesh import TriangleMesh
 SHARP = 25.0
 
 
-def smooth_faces(mesh: TriangleMesh, sharp: float = SHARP) -> Ints:
+def smooth_faces(mesh: TriangleMesh) -> Ints:
     """(m,) the face of each triangle, numbered from 1 by falling area.
 
     Args:
         mesh: wound alike throughout, as a closed solid is.
-        sharp: angle, in degrees, from which an edge parts two faces.
 
     >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 2]], float)
     >>> wedge = TriangleMesh(corners, np.array([[0, 1, 2], [0, 3, 1]], np.int32))
     >>> smooth_faces(wedge).tolist()
     [2, 1]
     """
-    a, b, c = mesh.corners()
-    normals = np.cross(b - a, c - a)
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
+    normals = facet_normals(mesh)
     one, two = (sides // 3 for sides in edges_of(mesh).pairs())
-    smooth = np.einsum("ij,ij->i", normals[one], normals[two]) > np.cos(np.radians(sharp))
+    smooth = np.einsum("ij,ij->i", normals[one], normals[two]) > np.cos(np.radians(SHARP))
     count, piece = pieces_of(one[smooth], two[smooth], len(mesh.triangles))
     area = np.bincount(piece, mesh.areas(), count)
     # To a millionth, so that equal faces keep the order of their facets whatever rounding does.

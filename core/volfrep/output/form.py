@@ -39,6 +39,7 @@ class Form:
         option: of the command that takes the word.
         bytes_by: module and function that write a mesh, where the form is nothing else.
         streamed: whether it holds a surface without the mesh of all of it in memory.
+        octants_by: module and function that write a surface octant by octant, with processes' help.
         bare: whether it has struts without fillets only.
         of_lattice: whether it says nothing of a domain.
         takes: settings that it looks at, by their names in `writer.Settings`.
@@ -54,6 +55,7 @@ class Form:
     option: str = ""
     bytes_by: str = ""
     streamed: bool = False
+    octants_by: str = ""
     bare: bool = False
     of_lattice: bool = False
     takes: tuple[str, ...] = ()
@@ -103,7 +105,8 @@ _STEP, _DECK = (".step", ".stp"), (".inp",)
 
 #: In the order of FreeCAD's list of kinds of files.
 FORMS = (
-    _mesh("stl", "STL", "stl:write_stl", streamed=True),
+    Form("stl", "STL", (".stl",), ".meshes:MeshWriter", bytes_by="..io.write.stl:write_stl",
+         streamed=True, octants_by="..io.write.stl_octants:write_surface_stl"),
     Form("3mf", "3MF", (".3mf",), ".meshes:MeshWriter", word="mesh", option="3mf",
          bytes_by="..io.write.threemf:write_3mf", streamed=True),
     Form("3mf-both", "3MF, mesh and beams", (".3mf",), ".beams:BothWriter", (MESH, BEAMS),

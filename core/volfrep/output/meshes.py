@@ -65,10 +65,8 @@ def write_mesh(
     if isinstance(surface, TrimmedSurface) and not form.streamed:
         surface = surface.whole(monitor or Monitor())
     write: MeshBytes = load(form.bytes_by)
-    if isinstance(surface, TrimmedSurface) and form.name == "stl":
-        from ..io.write.stl_octants import write_surface_stl
-
-        write_surface_stl(surface, path, monitor, executor)
+    if isinstance(surface, TrimmedSurface) and form.octants_by:
+        load(form.octants_by)(surface, path, monitor, executor)
     elif form.name == "3mf":
         write(surface, path, monitor, figures or {})
     else:

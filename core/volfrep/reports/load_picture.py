@@ -11,7 +11,8 @@ import numpy as np
 
 from ..loads.load_cases import Force, LoadCase, Moment, Pressure
 from ..loads.nodal_loads import Body, Share, nodes_in, share_of
-from ..loads.regions import Region, facet_normals
+from ..loads.regions import Region
+from ..mesh.remesh import facet_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.types import Floats
 from .picture import SIZE, add_surface, new_stage, show_stage

@@ -211,7 +211,7 @@ def skin_model(
     outside = even_surface(solid, edge, monitor, feet.places)
     triangles = outside.triangles.astype(np.int64)
     corners = outside.vertices[triangles]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = remesh.normals(corners)
     doubled = np.linalg.norm(normal, axis=1)
     normal /= np.maximum(doubled, 1e-300)[:, None]
     used = doubled > 1e-9 * doubled.max()
@@ -409,16 +409,14 @@ def _clear(
     corner = middle[triangles]
     way = _COMMON * np.asarray(corner - outside[triangles] + half, np.float64)
     # In the triangle's plane; at an edge that turns inwards the wall leaves it the other way.
-    plane = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    plane = remesh.normals(corner)
     plane /= np.maximum(np.linalg.norm(plane, axis=1), 1e-300)[:, None]
     way -= np.einsum("tci,ti->tc", way, plane)[:, :, None] * plane[:, None, :]
     inwards = corner.mean(axis=1)[:, None] - corner
     way *= np.where(np.einsum("tci,tci->tc", way, inwards) < 0.0, -1.0, 1.0)[:, :, None]
     # No farther than the inscribed circle, so that no triangle is turned over.
     around = np.linalg.norm(corner - np.roll(corner, 1, axis=1), axis=2).sum(axis=1)
-    circle = np.linalg.norm(
-        np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1
-    )
+    circle = np.linalg.norm(remesh.normals(corner), axis=1)
     circle /= np.maximum(around, 1e-300)
     size = np.maximum(np.linalg.norm(way, axis=2), 1e-300)
     way *= np.minimum(1.0, _RIGID_CORNER * circle[:, None] / size)[:, :, None]
@@ -441,7 +439,7 @@ def _joined_shells(
     """
     mean = np.zeros_like(middle)
     corners = middle[triangles]
-    way = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    way = remesh.normals(corners)
     for corner in range(3):
         np.add.at(mean, triangles[:, corner], way)
     mean /= np.maximum(np.linalg.norm(mean, axis=1), 1e-300)[:, None]

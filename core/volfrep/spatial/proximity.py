@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.remesh import unit_normals
+from ..mesh.remesh import normals, unit_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.ragged import spread
@@ -409,7 +409,7 @@ def _sampled(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
     turn = (longest[:, None] + np.arange(3)) % 3
     corners = np.take_along_axis(corners, turn[:, :, None], axis=1)
     base = lengths.max(axis=1)
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = normals(corners)
     height = np.linalg.norm(normal, axis=1) / np.maximum(base, 1e-300)
     # Both angles at the longest edge are acute: below every point of the triangle, towards that
     # edge, is a point of the next row. The steps make the farthest point 0.75 spacings away.

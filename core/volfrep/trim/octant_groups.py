@@ -297,7 +297,7 @@ def _touching(low: Floats, high: Floats, boundary: TriangleMesh, near: float) ->
     corners = boundary.vertices[boundary.triangles]
     first, last = corners.min(axis=1) - near, corners.max(axis=1) + near
     a, b = meeting_boxes(low, high, first, last, float((high - low).max()))
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = remesh.normals(corners)
     above = np.einsum("ij,ij->i", 0.5 * (low[a] + high[a]) - corners[b, 0], normal[b])
     reach = np.einsum("ij,ij->i", 0.5 * (high[a] - low[a]) + near, np.abs(normal[b]))
     meets = np.abs(above) <= reach

@@ -19,8 +19,9 @@ from scipy.spatial import cKDTree
 
 from ..loads.load_cases import LoadCase
 from ..loads.nodal_loads import Body, nodal_case, resultant, share_of
-from ..loads.regions import Region, facet_normals
+from ..loads.regions import Region
 from ..mechanics.elements import CORNERS
+from ..mesh.remesh import facet_normals
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
@@ -30,6 +31,8 @@ from .shares import VoxelGrid
 
 S = TypeVar("S")
 
+#: Forces that are left when a case counts as solved, over its loads.
+TOLERANCE = 1e-6
 #: Voxels that are looked at about a place that is loaded.
 NEAR = 8
 #: A hair more than a voxel.
@@ -69,7 +72,7 @@ class VoxelCase:
         ]
 
     def solve(
-        self, solver: Multigrid, tolerance: float, start: Floats | None = None
+        self, solver: Multigrid, tolerance: float = TOLERANCE, start: Floats | None = None
     ) -> tuple[Floats, int]:
         """(n, 3) displacements, mm, what is prescribed with them, and the steps that they took.
 
@@ -93,7 +96,6 @@ def solve_nodal_cases(
     cases: Sequence[VoxelCase],
     solver_of: Callable[[Bools], Multigrid],
     state_of: Callable[[VoxelCase, Floats, Floats, int], S],
-    tolerance: float,
 ) -> list[S]:
     """Solve load cases: those with equal supports with one solver.
 
@@ -102,7 +104,6 @@ def solve_nodal_cases(
         solver_of: the equations' solver where (n, 3) are free.
         state_of: what a case is told by: itself, its (n, 3) displacements, mm, the (n, 3) forces
             that hold these, N, and the steps that they took.
-        tolerance: of the forces that are left, over the loads.
 
     Raises:
         VolfrepError: it does not converge.
@@ -116,7 +117,7 @@ def solve_nodal_cases(
         for k, case in enumerate(cases):
             if k in states or not np.array_equal(case.fixed, like.fixed):
                 continue
-            displacements, steps = case.solve(solver, tolerance)
+            displacements, steps = case.solve(solver)
             states[k] = state_of(case, displacements, solver.fine.full(displacements), steps)
     return [states[k] for k in range(len(cases))]
 

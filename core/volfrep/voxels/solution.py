@@ -131,7 +131,6 @@ def solve_cases(
     model: VoxelModel,
     cases: Sequence[LoadCase],
     monitor: Monitor | None = None,
-    tolerance: float = 1e-6,
 ) -> list[VoxelState]:
     """Solve load cases.
 
@@ -139,7 +138,6 @@ def solve_cases(
         model: the part.
         cases: what it carries.
         monitor: asked for a cancel, and told how far it is.
-        tolerance: of the forces that are left, over the loads.
 
     Raises:
         VolfrepError: a case does not fit the part, or it is not held.
@@ -158,9 +156,7 @@ def solve_cases(
         reactions = np.where(case.fixed, forces - case.loads, 0.0)
         return VoxelState(case, displacements, stresses(model, displacements), reactions, steps)
 
-    return solve_nodal_cases(
-        [model.loaded.case(case) for case in cases], solver_of, state_of, tolerance
-    )
+    return solve_nodal_cases([model.loaded.case(case) for case in cases], solver_of, state_of)
 
 
 def stresses(model: VoxelModel, displacements: Floats) -> Floats:

@@ -191,7 +191,6 @@ def solve_solid(
     *,
     voxel: float | None = None,
     progress: ProgressCallback | None = None,
-    monitor: Monitor | None = None,
     tell: Callable[[Expected], None] = lambda expected: None,
 ) -> Solved:
     """Solve a closed solid under load cases.
@@ -202,7 +201,6 @@ def solve_solid(
         voxel: edge of the finer voxels, mm; None for about a quarter of a million, or for
             so many across its walls as are wanted, where that is more.
         progress: called with the fraction done and the stage; returning False cancels.
-        monitor: in place of one of its own.
         tell: is told before the work what it will take.
 
     Raises:
@@ -211,7 +209,7 @@ def solve_solid(
         Cancelled: the callback said so.
     """
     refuse_heat(loads)
-    monitor = monitor or Monitor(progress)
+    monitor = Monitor(progress)
     expected = expect(solid, voxel, len(loads.cases))
     tell(expected)
     start = time.perf_counter()

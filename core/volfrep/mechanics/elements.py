@@ -87,13 +87,13 @@ def part_centres(parts: int = PARTS) -> Floats:
 
 
 @lru_cache(maxsize=8)
-def hexahedron(poisson: float, parts: int = PARTS) -> Hexahedron:
+def hexahedron(poisson: float) -> Hexahedron:
     """The integrals for a solid of Young's modulus 1, exact over each part (2^3 Gauss points)."""
     solid = solid_stiffness(1.0, poisson)
-    offsets = (CORNERS - 0.5) / (np.sqrt(3.0) * parts)
-    points = part_centres(parts)[:, None] + offsets
+    offsets = (CORNERS - 0.5) / (np.sqrt(3.0) * PARTS)
+    points = part_centres()[:, None] + offsets
     strain = strain_matrices(points.reshape(-1, 3)).reshape(-1, 8, 6, 24)
-    weight = 1.0 / (8 * parts**3)
+    weight = 1.0 / (8 * PARTS**3)
     stress = np.einsum("ij,pqjk->pqik", solid, strain)
     stiffness = np.einsum("pqji,pqjk->pik", strain, stress) * weight
     load = np.einsum("pqji->pij", stress) * weight

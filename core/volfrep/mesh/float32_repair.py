@@ -37,7 +37,7 @@ def edge_within(bounds: NDArray[np.float64]) -> float:
     return float(STEPS * np.spacing(np.float32(np.abs(bounds).max(initial=1.0))))
 
 
-def remove_slivers(mesh: TriangleMesh, tolerance: float, among: int | None = None) -> TriangleMesh:
+def remove_slivers(mesh: TriangleMesh, tolerance: float) -> TriangleMesh:
     """The closed mesh without edges or heights below `tolerance` mm, where topology allows it.
 
     Only the neighbourhoods of such triangles are touched; genus, shells and closedness stay.
@@ -45,9 +45,8 @@ def remove_slivers(mesh: TriangleMesh, tolerance: float, among: int | None = Non
     Args:
         mesh: closed.
         tolerance: mm.
-        among: look for slivers in so many of the first triangles; None: in all.
     """
-    return without_slivers(mesh, tolerance, among)[0]
+    return without_slivers(mesh, tolerance)[0]
 
 
 def without_slivers(
@@ -55,7 +54,8 @@ def without_slivers(
 ) -> tuple[TriangleMesh, Bools, Ints]:
     """As `remove_slivers`, with (m,) which triangles were not there, or elsewhere.
 
-    And which ones the first triangles were: all others are last.
+    And which ones the first triangles were: all others are last. With `among` only so many of the
+    first are looked at.
     """
     thin = _slivers(mesh.vertices, mesh.triangles[:among], tolerance)
     result, new, stayed = _rebuilt(mesh, thin, tolerance)

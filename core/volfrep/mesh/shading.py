@@ -56,11 +56,11 @@ def shade(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Shaded:
     )
 
 
-def sharp_edges(mesh: TriangleMesh, angle: float = EDGE_ANGLE) -> Ints:
-    """(e, 2) vertices of the edges where the mesh bends by more than the angle, or ends."""
+def sharp_edges(mesh: TriangleMesh) -> Ints:
+    """(e, 2) vertices of the edges where the mesh bends by more than `EDGE_ANGLE`, or ends."""
     ends = _half_edges(mesh.triangles)
     pair = _pairs(mesh)
-    sharp = _cosines(_doubled_areas(mesh), pair) < np.cos(angle)
+    sharp = _cosines(_doubled_areas(mesh), pair) < np.cos(EDGE_ANGLE)
     alone = np.ones(len(ends), bool)
     alone[pair.ravel()] = False
     return np.concatenate([ends[pair[sharp, 0]], ends[alone]])

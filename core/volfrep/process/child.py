@@ -82,8 +82,7 @@ class Child:
         folder: where it runs; None for where this process does.
         environment: its variables; None for this process's.
         speaks: whether this process writes to its standard input, and it ends when that closes.
-        out: its standard output, as `subprocess` takes it.
-        errors: its standard error, likewise.
+        errors: its standard error, as `subprocess` takes it.
 
     Raises:
         OSError: the program cannot be started.
@@ -97,7 +96,6 @@ class Child:
         folder: Path | None = None,
         environment: Mapping[str, str] | None = None,
         speaks: bool = False,
-        out: int | IO[bytes] = subprocess.PIPE,
         errors: int | IO[bytes] = subprocess.STDOUT,
     ) -> None:
         shell = not speaks and not _IS_WINDOWS
@@ -107,7 +105,7 @@ class Child:
             cwd=folder,
             env={**variables, **limits.environment()},
             stdin=subprocess.PIPE if speaks or shell else subprocess.DEVNULL,
-            stdout=out,
+            stdout=subprocess.PIPE,
             stderr=errors,
             creationflags=NO_WINDOW,
             start_new_session=not _IS_WINDOWS,

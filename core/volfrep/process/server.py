@@ -125,7 +125,7 @@ def _unsent(error: Exception) -> Exception:
     return error
 
 
-def serve(folder: str, threads: int, warm: tuple[str, ...] = ()) -> None:
+def serve(folder: str, threads: int, warm: tuple[str, ...]) -> None:
     """Make calls until the pipe closes.
 
     Args:

@@ -85,14 +85,12 @@ def new_stage(file: str | os.PathLike[str] | None, size: tuple[int, int] = SIZE)
     return stage
 
 
-def add_surface(
-    stage: Any, mesh: TriangleMesh, colour: str, ambient: float = 0.25, opacity: float = 1.0
-) -> None:
+def add_surface(stage: Any, mesh: TriangleMesh, colour: str, ambient: float = 0.25) -> None:
     """Put a mesh into a scene: of its colour so much is not shaded."""
     stage.add_mesh(
         _surface(drawing_library(), mesh), color=colour, ambient=ambient, diffuse=1.0 - ambient,
         specular=0.12, specular_power=25, smooth_shading=True, split_sharp_edges=True,
-        feature_angle=FEATURE_ANGLE, opacity=opacity,
+        feature_angle=FEATURE_ANGLE,
     )  # fmt: skip
 
 

@@ -54,16 +54,15 @@ def bare_ends(radii: Floats) -> Floats:
     return np.broadcast_to(np.array([0.0, 1.0, 1.0]), (*radii.shape, 3))
 
 
-def end_table(law: JointLaw, smallest: float, largest: float, count: int = 41) -> EndTable:
+def end_table(law: JointLaw, smallest: float, largest: float) -> EndTable:
     """A cell's fitted ends as a function of many radii at once.
 
     Args:
         law: the ends of one radius, mm (`volfrep.mechanics.catalogue.joint_law`).
         smallest: between this radius and the largest the law is asked, and interpolated; mm.
         largest: mm.
-        count: at how many radii.
     """
-    at = np.geomspace(smallest * 0.999, largest * 1.001, count)
+    at = np.geomspace(smallest * 0.999, largest * 1.001, 41)
     ends = [law(radius) for radius in at.tolist()]
     logs = np.log([[end.length, end.axial, end.bending] for end in ends])
     return partial(_read_table, np.log(at), logs)

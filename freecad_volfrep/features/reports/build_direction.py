@@ -32,13 +32,12 @@ def first_inclination(obj: App.DocumentObject) -> float:
     return float(inclination_of(process_of(obj) if is_infill(obj) else None, None))
 
 
-def find_directions(obj: App.DocumentObject, inclination: float, best: int = 5) -> Orientations:
+def find_directions(obj: App.DocumentObject, inclination: float) -> Orientations:
     """The best build directions of an infill's mesh, or of a solid, in the document's coordinates.
 
     Args:
         obj: a lattice infill with a mesh, or a solid.
         inclination: least that needs no support, degrees.
-        best: how many there are, at most.
 
     Raises:
         VolfrepError: there is neither mesh nor solid.
@@ -51,7 +50,7 @@ def find_directions(obj: App.DocumentObject, inclination: float, best: int = 5) 
 
     mesh = mesh_in_document(obj) if is_infill(obj) else SolidReader().read(obj, App.Placement())
     title = job_title("Build direction of {label}", obj)
-    found: Orientations = run_job(title, Call(orient, (mesh, inclination), {"best": best}))
+    found: Orientations = run_job(title, Call(orient, (mesh, inclination)))
     return found
 
 

@@ -75,8 +75,8 @@ def as_words(words: list[bytes], name: str) -> Words:
     return np.array(words, dtype=bytes)
 
 
-def as_numbers(words: Words, name: str, where: str = "") -> Floats:
-    """The numbers that words stand for, in the same shape; `where` ends the error's clause.
+def as_numbers(words: Words, name: str) -> Floats:
+    """The numbers that words stand for, in the same shape.
 
     Raises:
         VolfrepError: one of them is no number.
@@ -89,10 +89,10 @@ def as_numbers(words: Words, name: str, where: str = "") -> Floats:
         text = wrong.decode("ascii", "replace")
         if _is_number(wrong.replace(b",", b".")):
             raise VolfrepError(
-                f"'{name}' has numbers with a decimal comma, as '{text}'{where}: export it with "
+                f"'{name}' has numbers with a decimal comma, as '{text}': export it with "
                 "decimal points."
             ) from error
-        raise damaged(name, f"'{text}' is not a number{where}") from error
+        raise damaged(name, f"'{text}' is not a number") from error
 
 
 def _is_number(word: bytes) -> bool:

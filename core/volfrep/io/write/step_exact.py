@@ -23,7 +23,6 @@ from ...grid.strut_graph import Wireframe
 from ...mesh.topology import pieces_of
 from ...util.errors import VolfrepError
 from ...util.files import replacing
-from ...util.progress import Monitor
 from ...util.text_rows import rows
 from ...util.types import Floats, Ints
 from .step import CLOSING, CONTEXT, FIRST_FREE, PLACEMENT, opening, product, references
@@ -195,7 +194,6 @@ def write_step_exact(
     texts: Sequence[JointText],
     shared: Shared,
     path: str | os.PathLike[str],
-    monitor: Monitor | None = None,
 ) -> None:
     """Write a lattice as one closed solid for each of its connected pieces.
 
@@ -204,11 +202,9 @@ def write_step_exact(
         texts: all its kinds of joints.
         shared: what they share.
         path: of the file; an old file stays if anything goes wrong.
-        monitor: told the progress, asked for a cancel.
 
     Raises:
         VolfrepError: two joints do not meet, or the path cannot be written.
-        Cancelled: when the monitor says so; no file is left behind.
     """
     _check_seams(texts, len(wireframe.struts))
     count = [len(text.joint.places) for text in texts]
@@ -226,10 +222,8 @@ def write_step_exact(
     with replacing(path) as file:
         file.write(opening(name, "exact surfaces").encode("ascii"))
         file.writelines(f"#{k}={text};\n".encode("ascii") for text, k in shared.numbers.items())
-        for done, (text, base) in enumerate(zip(texts, bases, strict=True)):
+        for text, base in zip(texts, bases, strict=True):
             file.writelines(_copies(text, base, caps, wireframe.nodes))
-            if monitor is not None:
-                monitor.tick((done + 1) / len(texts))
         file.write(_solids(wireframe, texts, bases, int(starts[-1]), name).encode("ascii"))
 
 

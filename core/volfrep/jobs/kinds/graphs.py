@@ -123,7 +123,7 @@ class GraphKind(LatticeKind):
         """
         raise _not_stiff(target)
 
-    def stiffened(self, target: Target, *, rough: bool = False) -> LatticeSpec:
+    def stiffened(self, target: Target) -> LatticeSpec:
         """None: the endless lattice of a graph is not known.
 
         Raises:

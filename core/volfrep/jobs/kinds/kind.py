@@ -298,12 +298,11 @@ class LatticeKind(ABC):
         """
         raise not_aimed(target)
 
-    def stiffened(self, target: Target, *, rough: bool = False) -> LatticeSpec:
+    def stiffened(self, target: Target) -> LatticeSpec:
         """The specification with the thickness of a target of stiffness.
 
         Args:
             target: the stiffness.
-            rough: whether coarse grids will do.
 
         Raises:
             VolfrepError: none has (the text says what can be had), or none is looked for.

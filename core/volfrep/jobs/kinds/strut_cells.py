@@ -60,12 +60,12 @@ class StrutCellKind(LatticeKind):
         ratio, fillet = spec.strut_radius / size, spec.fillet / size
         return modulus(spec.unit_cell(), ratio, target, fillet)
 
-    def stiffened(self, target: Target, *, rough: bool = False) -> LatticeSpec:
+    def stiffened(self, target: Target) -> LatticeSpec:
         """The specification with the radius of a stiffness."""
         from ..stiffness_target import ratio_of_stiffness
 
         spec, size = self.spec, self.spec.cell_size
-        ratio = ratio_of_stiffness(spec.unit_cell(), target, spec.fillet / size, rough=rough)
+        ratio = ratio_of_stiffness(spec.unit_cell(), target, spec.fillet / size)
         return replace(spec, strut_radius=ratio * size)
 
     def roughly_solved(self, solid: TriangleMesh) -> LatticeSpec:

@@ -155,9 +155,9 @@ class TpmsKind(LatticeKind):
         """Young's modulus of the endless walls along a target's direction."""
         return tpms_modulus(self.spec, target)
 
-    def stiffened(self, target: Target, *, rough: bool = False) -> LatticeSpec:
+    def stiffened(self, target: Target) -> LatticeSpec:
         """The specification with the thickness of a stiffness."""
-        return solve_tpms_stiffness(self.spec, target, rough=rough)
+        return solve_tpms_stiffness(self.spec, target)
 
 
 class TpmsLattice(OctantLattice):

@@ -25,8 +25,8 @@ NOT_LOOKED_AT = (
 )
 #: Rows of `sizing_rows` that are told as they are.
 _TOLD = (
-    "struts", "as printed", "skin", "solid", "one skin", "radius list", "removed", "governed by",
-    "same mass", "same limits", "CalculiX",
+    "struts", "as printed", "skin", "skin governed by", "solid", "one skin", "radius list",
+    "removed", "governed by", "same mass", "same limits", "CalculiX",
 )  # fmt: skip
 _STYLE = """
 body{font:10.5pt/1.4 sans-serif;color:#111;max-width:190mm;margin:8mm auto;padding:0 4mm}

@@ -210,6 +210,10 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
                 f"the part {held['5%']:.1%} to {held['95%']:.1%} of that on 90% of its area",
             )
         )
+        governed = ", ".join(
+            f"{_limit(row)} ({row['share']:.0%} of its area)" for row in skin["governed_by"]
+        )
+        rows.append(("skin governed by", governed))
         if skin["solid"]:
             rows.append(("solid", _solid(skin["solid"])))
         if skin["even"] is not None:
@@ -231,10 +235,12 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 def _governed(rows: list[dict[str, Any]]) -> str:
     """Which limit, in which case, says how thick how many struts are."""
-    return ", ".join(
-        f"{row['what']}{' in ' * bool(row['case'])}{row['case']} ({row['struts']:,} struts)"
-        for row in rows
-    )
+    return ", ".join(f"{_limit(row)} ({row['struts']:,} struts)" for row in rows)
+
+
+def _limit(row: Mapping[str, Any]) -> str:
+    """What governs, with its load case."""
+    return f"{row['what']}{' in ' * bool(row['case'])}{row['case']}"
 
 
 def _solid(places: list[dict[str, Any]]) -> str:

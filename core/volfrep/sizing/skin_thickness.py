@@ -92,6 +92,11 @@ class SkinThickness:
         """(t,) mm, half of what there is room for: each side has its half of what is solid."""
         return np.asarray(0.5 * self.skin.thickness_below[self.skin.shells.triangles].mean(axis=1))
 
+    @cached_property
+    def areas(self) -> Floats:
+        """(p,) mm2, what of the shells' area is each control point's."""
+        return np.asarray(self.shares.T @ self.skin.shells.area)
+
     def wanted(self, variables: Floats) -> Floats:
         """(p,) mm, the values at the control points."""
         return np.asarray(variables[self.radii :] ** 2)

@@ -10,7 +10,9 @@ import samples
 from volfrep import LatticeSpec, fill
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing import Goal, size
+from volfrep.jobs.sizing.governing import governing_skin
 from volfrep.jobs.sizing.part_model import part_model
+from volfrep.jobs.sizing.skin_search import thickness_there
 from volfrep.jobs.sizing.solid_places import solid_places
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Moment, Support
 from volfrep.loads.regions import InPlane
@@ -100,6 +102,44 @@ def test_the_mass_asked_for_is_that_of_the_file():
     assert split["struts"] + split["skin"] == pytest.approx(mass, rel=0.01)
     file = fill(solid, made.spec).mesh.volume * TITANIUM.density / 1e3
     assert file == pytest.approx(mass, rel=0.02)
+
+
+def test_a_skin_that_ended_even_is_compared_with_what_came_out():
+    solid, force = samples.box((20.0, 10.0, 10.0)), Force(on_plane(0, 20.0), (9.0, 0, 0))
+    spec = LatticeSpec("CVC", cell_size=10.0, strut_radius=0.3, shell=0.5)
+    infill = Infill(solid, spec, monitor=Monitor(), cache=StageCache())
+    loads = LoadCases(TITANIUM, (LoadCase("end", (Support(on_plane(0, 0.0)),), (force,)),))
+    model = part_model(infill, loads, Goal(thinnest=0.2), StageCache())
+    told = thickness_there(model, infill.domain.mesh)
+    assert told["there_over_asked"] == pytest.approx({"5%": 1.0, "50%": 1.0, "95%": 1.0}, rel=1e-3)
+
+
+def test_what_governs_a_pulled_tubes_skin_is_told_by_area():
+    """Its stress is F / A all along, away from the plates at its ends."""
+    (length, side), wall, force = (40.0, 10.0), 1.0, 3600.0
+    _, problem, first = tube(
+        (length, side, side), lambda region: Force(region, (force, 0, 0)), bounds=(0.5, 4.0),
+        patch=5.0, shell=wall,
+    )  # fmt: skip
+    stress = force / (side**2 - (side - 2.0 * wall) ** 2)
+
+    def governs(roots, **limits):
+        radii = np.concatenate([first[: problem.skin.radii], roots])
+        limits = Limits(**limits)
+        rows = governing_skin(problem, analyse(problem, radii, limits)[0], limits)
+        assert sum(row["share"] for row in rows) == pytest.approx(1.0)
+        return {(row["what"], row["case"]): row["share"] for row in rows}
+
+    roots = first[problem.skin.radii :]
+    walls = 4.0 * side * (length - 2.0 * side) / (4.0 * side * length + 2.0 * side**2)
+    assert governs(roots, skin_stress=stress / 0.95)["skin stress", "end"] > walls
+    assert governs(roots, skin_stress=50.0 * stress) == {("no limit", ""): pytest.approx(1.0)}
+    thin = np.full(len(roots), np.sqrt(0.5))
+    told = governs(thin, skin_stress=50.0 * stress)
+    assert told == {("smallest thickness", ""): pytest.approx(1.0)}
+    moves = analyse(problem, first, Limits())[0].largest[0]
+    told = governs(roots, displacement=moves)
+    assert told == {("displacement", "end"): pytest.approx(1.0)}
 
 
 @pytest.mark.costly

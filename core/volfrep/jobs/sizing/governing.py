@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -20,6 +21,7 @@ _OWN = 0.3
 THINNEST, THICKEST, STIFFNESS, NOTHING = (
     "smallest radius", "largest radius", "stiffness", "no limit",
 )  # fmt: skip
+THIN_SKIN, THICK_SKIN = "smallest thickness", "largest thickness"
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,6 +91,41 @@ def governing(problem: Problem, design: Analysis, limits: Limits) -> Governing:
     ends = problem.radii.ends.tocsr()[2 * np.arange(len(thick)) + thick]
     node = np.asarray(ends.argmax(axis=1)).ravel()
     return Governing(tuple(names), np.where(most >= _NEAR, own, of_node[node]))
+
+
+def governing_skin(problem: Problem, design: Analysis, limits: Limits) -> list[dict[str, Any]]:
+    """What governs how much of a sized skin's area, the most first.
+
+    Where its thickness is chosen it is as the shells there ask for that are its own: their stress
+    where nine tenths of its limit are used; else a bound, or the limit that all share.
+
+    Args:
+        problem: of the search, whose skin is varied.
+        design: its solution.
+        limits: that it was held to, the skin's with them.
+    """
+    skin = problem.skin
+    assert skin is not None
+    cases = [case.name for case in problem.cases]
+    names = [(THIN_SKIN, ""), (THICK_SKIN, ""), _shared(design, limits, cases)]
+    roots = design.radii[skin.radii :]
+    low, high = problem.low[skin.radii :], problem.high[skin.radii :]
+    governs = np.full(len(roots), 2)
+    governs[roots <= low * _BOUND] = 0
+    governs[roots * _BOUND >= high] = 1
+    if limits.skin_stress is not None:
+        assert design.skin_stress is not None
+        stress = np.minimum(design.skin_stress, skin.peak(design.skin_stress))
+        uses = np.stack([skin.largest_near(row) for row in stress.T], axis=1) / limits.skin_stress
+        near = uses.max(axis=1) >= _NEAR
+        governs[near] = len(names) + uses[near].argmax(axis=1)
+        names += [("skin stress", case) for case in cases]
+    shares = np.bincount(governs, skin.areas, len(names)) / skin.areas.sum()
+    return [
+        {"what": names[k][0], "case": names[k][1], "share": float(shares[k])}
+        for k in np.argsort(-shares, kind="stable").tolist()
+        if shares[k] > 0.0
+    ]
 
 
 def _shared(design: Analysis, limits: Limits, cases: list[str]) -> tuple[str, str]:

@@ -33,7 +33,7 @@ from ..infill import Infill
 from ..kinds import lattice_kind
 from ..targets import solve_target
 from .goal import Goal
-from .governing import governing
+from .governing import governing, governing_skin
 from .notes import (
     free_motions,
     hardly_beams,
@@ -470,6 +470,11 @@ def _record(
             **thickness_there(search.model, task.infill.domain.mesh),
             "chosen_at": len(task.skin.sized.analysis.radii) - len(task.skin.radii),
             "even": task.skin.even,
+            "governed_by": governing_skin(
+                task.skin.problem,
+                task.skin.sized.analysis,
+                replace(task.goal.limits, skin_stress=task.skin.limit),
+            ),
             "solid": solid_places(
                 search.model, task.infill.solid, task.infill.domain.mesh,
                 task.loads.material.density, task.skin.solid,

@@ -41,6 +41,9 @@ from .solid_places import NOWHERE, SolidPlaces, more_solid
 STEP = 1e-6
 #: Searches, each with the skin that the one before has found.
 _SEARCHES = 2
+#: A skin of less than this part of what is below it does not meet itself: half but for rounding, as
+#: one of even thickness was looked for no deeper than twice that.
+_CLEAR = 0.499
 #: So many in all, where a part becomes solid in more places.
 _MOST_SEARCHES = 4
 
@@ -286,7 +289,7 @@ def thickness_there(model: SizingModel, domain: TriangleMesh) -> dict[str, Any]:
     places = skin.outside.vertices[shells.triangles].mean(axis=1)
     asked = shells.thickness
     found = closest_points(domain, places)[1]
-    clear = asked < 0.49 * skin.thickness_below[shells.triangles].min(axis=1)
+    clear = asked < _CLEAR * skin.thickness_below[shells.triangles].min(axis=1)
     share = found[clear] / asked[clear]
     area = shells.area[clear]
     order = np.argsort(share)

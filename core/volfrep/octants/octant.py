@@ -14,7 +14,7 @@ them the vertices on the face, are the same: pieces are joined by counting, neve
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -34,8 +34,11 @@ ALL_ACTIVE = 0xFF
 #: would make marching cubes put several vertices on one grid point. Not a round number, so that
 #: a radius that is a multiple of the step cannot meet it.
 ZERO_BAND = 1.2345e-3
-#: Distances of samples from primitives that are found at a time, so that they stay in the cache.
-VALUES_AT_ONCE = 1 << 17
+#: Samples along an edge of the cubes that they are found in: few primitives are nearest in one, and
+#: their distances stay in the cache.
+CUBE = 8
+#: Distances are certain to this part of a cell.
+ROUNDING = 1e-9
 #: Vertices lie at whole steps of an octant's edge over this, so that octants which share a vertex
 #: can give it the very same coordinates.
 STEPS = float(1 << 26)
@@ -157,7 +160,8 @@ def sample_octants(
 ) -> Floats:
     """(k, steps + 1, steps + 1, steps + 1) signed distances over octants, none of them zero.
 
-    Those of a primitive that several octants have are found once.
+    Those of a primitive that several octants have are found once, and none where another one is
+    nearer whatever the sample: no distance changes faster than its place.
     """
     axis = np.linspace(0.0, 0.5 * cell_size, steps + 1)
     step = axis[1]
@@ -168,15 +172,32 @@ def sample_octants(
     shared = every.take(first)
     ends = np.cumsum([0] + [len(own) for own in primitives])
     rows = [number.ravel()[begin:end] for begin, end in itertools.pairwise(ends)]
-    chunk = max(1, VALUES_AT_ONCE // max(1, len(shared)))
-    for k in range(0, len(points), chunk):
-        part = slice(k, k + chunk)
-        distances = sdf.distances(points[part, None], shared).T.copy()
-        for octant, row in enumerate(rows):
+    for cube in _cubes(steps + 1):
+        around = points[cube]
+        middle = 0.5 * (around[0] + around[-1])
+        apart = 2.0 * float(np.linalg.norm(around[-1] - middle)) + ROUNDING * cell_size
+        away = sdf.distances(middle, shared)
+        # The round union adds up what all of them reach.
+        near = [
+            row[away[row] <= away[row].min() + apart] if len(row) and fillet <= 0.0 else row
+            for row in rows
+        ]
+        used = np.unique(np.concatenate(near))
+        distances = sdf.distances(around[:, None], shared.take(used)).T.copy()
+        for octant, row in enumerate(near):
             if len(row):
-                values[octant, part] = sdf.union(distances[row].T, fillet)
+                own = distances[np.searchsorted(used, row)]
+                values[octant, cube] = sdf.union(own.T, fillet)
     values[np.abs(values) < ZERO_BAND * step] = ZERO_BAND * step
     return values.reshape(-1, *(steps + 1,) * 3)
+
+
+def _cubes(along: int) -> Iterator[Ints]:
+    """The numbers of samples, so many along an octant's edge, cube by cube; corners first, last."""
+    number = np.arange(along**3).reshape(along, along, along)
+    for begin in itertools.product(range(0, along, CUBE), repeat=3):
+        x, y, z = (slice(low, low + CUBE) for low in begin)
+        yield number[x, y, z].ravel()
 
 
 def raw_octant(samples: Floats, cell_size: float) -> RawOctant:

@@ -6,8 +6,10 @@ import pytest
 
 from volfrep.design.cells import PAPERS, find_cell, make_cell
 from volfrep.mesh.remesh import edges
+from volfrep.octants import sdf
 from volfrep.octants.octant import (
     ALL_ACTIVE,
+    ZERO_BAND,
     OctantKey,
     corner_patterns,
     octant_mirrors,
@@ -65,6 +67,24 @@ def test_the_raw_surface_is_open_on_the_octants_faces_only(cell, radius):
         (raw.place[inner[:, 0]] == raw.place[inner[:, 1]]) & (raw.place[inner[:, 0]] != 1)
     ).any(1)
     assert not chord.any()
+
+
+def test_samples_are_the_least_of_all_distances_and_few_of_them_are_found(monkeypatch):
+    size, steps = 10.0, 24
+    primitives = octant_primitives(find_cell("Kagome"), OctantKey(0, ALL_ACTIVE), size, 0.45, 0.3)
+    axis = np.linspace(0.0, size / 2, steps + 1)
+    points = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1)
+    least = sdf.distances(points[..., None, :], primitives).min(-1)
+    found = []
+    distances = sdf.distances
+    monkeypatch.setattr(
+        sdf, "distances", lambda *given: found.append(distances(*given)) or found[-1]
+    )
+    samples = sample_octant(primitives, size, steps, 0.0)
+    moved = np.abs(least) < ZERO_BAND * axis[1]
+    np.testing.assert_array_equal(samples[~moved], least[~moved])
+    assert (samples[moved] == ZERO_BAND * axis[1]).all()
+    assert sum(values.size for values in found) < 0.6 * least.size * len(primitives)
 
 
 def test_faces_of_reflected_neighbours_carry_the_same_samples():

@@ -91,7 +91,7 @@ SLANTED = (np.sin(np.radians(15)), 0, np.cos(np.radians(15)))
     ids=["BCCZ", "Box"],
 )
 def test_sections_of_the_finished_file_come_out_as_asked_for(cell, up, angles, tmp_path):
-    """At all five inclinations that were published; its facets alone take 0.1 micrometre."""
+    """At all five inclinations that were published; its facets alone take 0.2 micrometre."""
     out = tmp_path / "part.stl"
     part = volfrep.fill(samples.box((24, 24, 24)), cell=cell, cell_size=10, strut_radius=0.5,
                         shell=1, compensate="LPBF-Ti64", build_direction=up)  # fmt: skip

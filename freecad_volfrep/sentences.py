@@ -38,14 +38,14 @@ SENTENCES = marked(
     "{material} is printed by {processes}, not by {process}.",
     "Struts of {diameter} mm are thinner than {process} prints: at least {least} mm.",
     "There is no solid to fill: choose one as Base.",
-    "The part is nowhere thicker than two walls of {shell} mm, so that nothing is left to fill: "
+    "The part is nowhere thicker than two skins of {shell} mm, so that nothing is left to fill: "
     "reduce the skin thickness.",
-    "The skin and what is kept solid leave nothing to fill: reduce the shell thickness, that of "
+    "The skin and what is kept solid leave nothing to fill: reduce the skin thickness, that of "
     "faces with their own, or what is kept solid.",
     "No strut of cells of {size} mm lies inside the skin: reduce the cell size or the skin "
     "thickness.",
     "No strut of the network lies inside the skin: reduce the skin thickness.",
-    "No wall lies inside the skin: reduce the skin thickness.",
+    "No TPMS lies inside the skin: reduce the skin thickness.",
     "No cell of {size} mm lies wholly inside the domain: reduce the cell size or choose the "
     "activation 'touching'.",
     "No cell of {size} mm has its centre inside the domain: reduce the cell size or choose the "

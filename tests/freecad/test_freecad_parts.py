@@ -61,4 +61,4 @@ def test_a_part_that_is_thin_everywhere_is_refused_with_a_sentence(doc):
     )
     doc.recompute()
     assert not infill.isValid()
-    assert "nowhere thicker than two walls" in infill.Status
+    assert "nowhere thicker than two skins" in infill.Status

@@ -101,10 +101,10 @@ def _refuse_no_domain(domain: TriangleMesh, shell: float, skin: Skin | None) -> 
     if not len(domain.triangles):
         if skin is not None and not skin.is_even:
             raise VolfrepError(
-                "The skin and what is kept solid leave nothing to fill: reduce the shell "
+                "The skin and what is kept solid leave nothing to fill: reduce the skin "
                 "thickness, that of faces with their own, or what is kept solid."
             )
         raise VolfrepError(
-            f"The part is nowhere thicker than two walls of {shell:g} mm, so that nothing is left "
+            f"The part is nowhere thicker than two skins of {shell:g} mm, so that nothing is left "
             "to fill: reduce the skin thickness."
         )

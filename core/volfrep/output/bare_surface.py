@@ -161,8 +161,8 @@ def _one_side(spec: LatticeSpec) -> LatticeSpec:
         )
     if spec.output == "domain" or (spec.output == "part" and spec.shell > 0.0):
         raise VolfrepError(
-            "A bare surface is joined to no skin: set the shell to 0, or make the lattice alone, "
-            "which ends at the skin's inner side."
+            "A bare surface is joined to no skin: set the skin thickness to 0, or make the lattice "
+            "alone, which ends at the skin's inner side."
         )
     # Pieces that hang on nothing are kept: of the side, which nobody prints.
     side = TpmsSheet("skeleton", spec.wall.thickness, 0.0)

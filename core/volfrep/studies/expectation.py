@@ -56,7 +56,7 @@ def expect(solid: TriangleMesh, spec: LatticeSpec, depth: PartDepth) -> Expectat
     inside = depth.volume_below(spec.shell)
     if inside <= 0.0:
         raise VolfrepError(
-            f"The part is nowhere thicker than two walls of {spec.shell:g} mm, so that nothing is "
+            f"The part is nowhere thicker than two skins of {spec.shell:g} mm, so that nothing is "
             "left to fill: reduce the skin thickness."
         )
     found = lattice_kind(spec).expected(solid, depth)

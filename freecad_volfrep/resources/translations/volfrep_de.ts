@@ -3927,6 +3927,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Weder die Füllung noch ihre Lastfälle haben einen Werkstoff: einen für die Füllung wählen.</translation>
     </message>
     <message>
+      <source>No TPMS lies inside the skin: reduce the skin thickness.</source>
+      <translation>Keine TPMS liegt innerhalb der Haut: die Hautdicke verringern.</translation>
+    </message>
+    <message>
       <source>No cell of {size} mm has its centre inside the domain: reduce the cell size or choose the activation 'touching'.</source>
       <translation>Keine Zelle von {size} mm hat ihre Mitte im Inneren: die Zellgröße verringern oder alle berührenden Zellen behalten.</translation>
     </message>
@@ -3961,10 +3965,6 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>No strut radius gives a relative density of {value} with {cells}: choose one from {least} to {most}.</source>
       <translation>Kein Strebenradius ergibt eine relative Dichte von {value} mit {cells}: eine von {least} bis {most} wählen.</translation>
-    </message>
-    <message>
-      <source>No wall lies inside the skin: reduce the skin thickness.</source>
-      <translation>Keine Wand liegt innerhalb der Haut: die Hautdicke verringern.</translation>
     </message>
     <message>
       <source>Not enough memory: choose larger cells or a coarser deviation.</source>
@@ -4051,11 +4051,11 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Das Netz von '{label}' ist nicht aktuell ({why}): neu berechnen, um ein aktuelles zu haben.</translation>
     </message>
     <message>
-      <source>The part is nowhere thicker than two walls of {shell} mm, so that nothing is left to fill: reduce the skin thickness.</source>
-      <translation>Das Teil ist nirgends dicker als zwei Wände von {shell} mm, so dass nichts zu füllen bleibt: die Hautdicke verringern.</translation>
+      <source>The part is nowhere thicker than two skins of {shell} mm, so that nothing is left to fill: reduce the skin thickness.</source>
+      <translation>Das Teil ist nirgends dicker als zwei Häute von {shell} mm, so dass nichts zu füllen bleibt: die Hautdicke verringern.</translation>
     </message>
     <message>
-      <source>The skin and what is kept solid leave nothing to fill: reduce the shell thickness, that of faces with their own, or what is kept solid.</source>
+      <source>The skin and what is kept solid leave nothing to fill: reduce the skin thickness, that of faces with their own, or what is kept solid.</source>
       <translation>Die Haut und was massiv bleibt, lassen nichts zu füllen: die Hautdicke verringern, die von Flächen mit eigener, oder was massiv bleibt.</translation>
     </message>
     <message>

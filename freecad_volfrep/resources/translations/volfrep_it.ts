@@ -3927,6 +3927,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Né il riempimento né i suoi casi di carico hanno un materiale: sceglierne uno per il riempimento.</translation>
     </message>
     <message>
+      <source>No TPMS lies inside the skin: reduce the skin thickness.</source>
+      <translation>Nessuna TPMS sta dentro il guscio: ridurre lo spessore del guscio.</translation>
+    </message>
+    <message>
       <source>No cell of {size} mm has its centre inside the domain: reduce the cell size or choose the activation 'touching'.</source>
       <translation>Nessuna cella di {size} mm ha il centro all'interno: ridurre la dimensione delle celle o tenere tutte le celle che toccano il pezzo.</translation>
     </message>
@@ -3961,10 +3965,6 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>No strut radius gives a relative density of {value} with {cells}: choose one from {least} to {most}.</source>
       <translation>Nessun raggio delle aste dà una densità relativa di {value} con {cells}: sceglierne una da {least} a {most}.</translation>
-    </message>
-    <message>
-      <source>No wall lies inside the skin: reduce the skin thickness.</source>
-      <translation>Nessuna parete sta dentro il guscio: ridurre lo spessore del guscio.</translation>
     </message>
     <message>
       <source>Not enough memory: choose larger cells or a coarser deviation.</source>
@@ -4051,11 +4051,11 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>La mesh di '{label}' non è aggiornata ({why}): ricalcolarla per averne una attuale.</translation>
     </message>
     <message>
-      <source>The part is nowhere thicker than two walls of {shell} mm, so that nothing is left to fill: reduce the skin thickness.</source>
-      <translation>Il pezzo non è da nessuna parte più spesso di due pareti di {shell} mm, e non resta nulla da riempire: ridurre lo spessore del guscio.</translation>
+      <source>The part is nowhere thicker than two skins of {shell} mm, so that nothing is left to fill: reduce the skin thickness.</source>
+      <translation>Il pezzo non è da nessuna parte più spesso di due gusci di {shell} mm, e non resta nulla da riempire: ridurre lo spessore del guscio.</translation>
     </message>
     <message>
-      <source>The skin and what is kept solid leave nothing to fill: reduce the shell thickness, that of faces with their own, or what is kept solid.</source>
+      <source>The skin and what is kept solid leave nothing to fill: reduce the skin thickness, that of faces with their own, or what is kept solid.</source>
       <translation>Il guscio e ciò che resta pieno non lasciano nulla da riempire: ridurre lo spessore del guscio, quello delle facce con uno proprio, o ciò che resta pieno.</translation>
     </message>
     <message>

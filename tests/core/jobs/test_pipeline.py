@@ -178,7 +178,7 @@ def test_progress_rises_and_a_cancel_stops():
     ("changes", "message"),
     [
         ({"cell_size": 60.0, "strut_radius": 1.0}, "larger than the part"),
-        ({"shell": 11.0}, "nowhere thicker than two walls"),
+        ({"shell": 11.0}, "nowhere thicker than two skins"),
         ({"cell_size": 0.02, "strut_radius": 0.002}, "Cells of"),
         ({"cell": "Octet", "strut_radius": 2.75}, "completely"),
     ],

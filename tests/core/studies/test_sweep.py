@@ -174,7 +174,7 @@ def test_a_run_that_fails_keeps_its_sentence_and_ends_nothing(tmp_path: Path) ->
     made = volfrep.sweep(study, tmp_path, workers=1)
     assert (made.count("done"), made.count("failed")) == (1, 1)
     (said,) = (text for text in made.table.column("error") if text)
-    assert "nowhere thicker than two walls of 8.5 mm" in said
+    assert "nowhere thicker than two skins of 8.5 mm" in said
     assert volfrep.sweep(study, tmp_path, workers=1).runs == 0
     assert volfrep.sweep(study, tmp_path, workers=1, retry_failed=True).runs == 1
 

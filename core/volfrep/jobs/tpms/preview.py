@@ -112,7 +112,7 @@ def _surface(
     field = np.maximum(sheet, -deep(points))
     field = np.pad(field.reshape(tuple(number)), 1, constant_values=pitch)
     if field.min() >= 0.0:
-        raise VolfrepError("No wall lies inside the skin: reduce the skin thickness.")
+        raise VolfrepError("No TPMS lies inside the skin: reduce the skin thickness.")
     found, rows, _, _ = marching_cubes(field.astype(np.float32), 0.0)  # type: ignore[no-untyped-call]
     return TriangleMesh(start + pitch * (found - 1.0), rows.astype(np.int32))
 

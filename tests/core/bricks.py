@@ -81,7 +81,7 @@ def brick_stiffness(young: float, poisson: float, edge: float) -> np.ndarray:
 
 
 class Bricks:
-    """Cubes that hang together.
+    """Cubes that are connected.
 
     Args:
         mesh: closed, mm.
@@ -141,4 +141,4 @@ class Bricks:
             ahead = scale * left
             work, before = left @ ahead, work
             step = ahead + work / before * step
-        raise AssertionError("the bricks do not hang together")
+        raise AssertionError("the bricks are not connected")

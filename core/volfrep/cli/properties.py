@@ -34,7 +34,7 @@ def add_properties(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "cell",
         metavar="CELL",
-        help="a library cell, a surface of walls such as Gyroid, or a cell's .json file",
+        help="a library cell, a TPMS such as Gyroid, or a cell's .json file",
     )
     add_run_options(parser, "properties")
 

@@ -324,7 +324,7 @@ def conduct(
         value += solve(System(matrix, forces, 1), forces, np.zeros(1), free)[:, 0]
     except VolfrepError as error:
         raise VolfrepError(
-            "The heat's equations did not converge: do the regions hang together?"
+            "The heat's equations did not converge: are the regions connected?"
         ) from error
     flow = matrix @ value - given
     gives = [float(flow[fixed_by == k].sum()) for k in range(len(temperatures))]

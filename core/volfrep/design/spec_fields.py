@@ -134,7 +134,7 @@ class SpecFields:
 
     @property
     def cell_name(self) -> str:
-        """What the cell is called, of struts or of walls."""
+        """What the cell is called, of struts or a TPMS."""
         assert not isinstance(self.cell, str)
         return self.cell.name
 

@@ -92,8 +92,8 @@ def beam_model(
 
     Args:
         wireframe: the struts, mm.
-        on_boundary: (n,) bool, nodes on a wall: a strut that ends there alone, not in a joint, gets
-            no stiff end there. None: all are joints.
+        on_boundary: (n,) bool, nodes on the skin: a strut that ends there alone, not in a joint,
+            gets no stiff end there. None: all are joints.
         joint_length: of rigid ends, in units of the radius there; 0 for bare beams.
         joint_law: the ends that were fitted to the cell, in place of rigid ones.
         elements_per_strut: of the flexible middle.

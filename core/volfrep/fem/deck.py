@@ -58,7 +58,7 @@ def write_beams(
     of the same second moment of area as the circle (2 % less area, 15 % less torsion); stresses
     of the round strut follow from the section forces that the step writes.
 
-    Node sets: NALL, JOINTS (the lattice's nodes), SKIN (its nodes on a wall, where given), and
+    Node sets: NALL, JOINTS (the lattice's nodes), SKIN (its nodes on the skin, where given), and
     the nodes on the sides of the lattice's box: XMIN, XMAX, ... ZMAX. Element sets: EALL, STRUTS
     (the flexible middles) and ENDS (the stiff ends).
 

@@ -210,7 +210,7 @@ def beyond_inner(mesh: WedgeMesh, inner: Ints) -> tuple[Ints, Ints, Floats]:
 
     Args:
         mesh: the skin.
-        inner: (j,) nodes on its inner side that hang together with the skin beyond.
+        inner: (j,) nodes on its inner side that are connected with the skin beyond.
 
     Returns:
         (i,) those of them that have one; (i, 15) its nodes; (i, 15) their shares.

@@ -144,7 +144,7 @@ def homogenise(
             solved.
 
     Raises:
-        VolfrepError: the cell does not hang together, or is no cube with struts of one radius.
+        VolfrepError: the cell is not connected, or is no cube with struts of one radius.
     """
     refuse_odd(cell)
     endless = endless_cell(cell)
@@ -184,7 +184,7 @@ def homogenise_voxels(
         on_estimate: as of `homogenise`.
 
     Raises:
-        VolfrepError: the solid does not hang together.
+        VolfrepError: the solid is not connected.
     """
     start = time.perf_counter()
     grids = [solve_grid(voxels(sizes[0]), poisson, cubic=cubic)]

@@ -65,7 +65,7 @@ NO_FEET = Feet(np.empty((0, 3)), np.empty(0))
 
 @dataclass(frozen=True, eq=False)
 class Joined:
-    """Vertices of the skin that hang together with the skin on the other side.
+    """Vertices of the skin that are connected with the skin on the other side.
 
     Attributes:
         vertices: (j,) of them.

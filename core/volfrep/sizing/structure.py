@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What carries: struts, what else is stiff, and how both hang together; solved for load cases."""
+"""What carries: struts, what else is stiff, and how both are joined; solved for load cases."""
 
 from __future__ import annotations
 

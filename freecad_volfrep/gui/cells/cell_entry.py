@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A cell as the library lists it, of struts or of walls, and what cells are for."""
+"""A cell as the library lists it, of struts or a TPMS, and what cells are for."""
 
 from __future__ import annotations
 

@@ -88,7 +88,7 @@ class CellProperties(QtWidgets.QWidget):
         self._offer_materials()
 
     def show_cell(self, cell: UnitCell | PeriodicSurface) -> None:
-        """Tell what this cell does, of struts or of walls."""
+        """Tell what this cell does, of struts or a TPMS."""
         self._cell = cell
         for name in _UNKNOWN:
             is_shown = name == self._thickness(cell)

@@ -114,7 +114,7 @@ class Tpms(Kind):
             VolfrepError: always.
         """
         raise VolfrepError(
-            f"This is done with struts and not with the walls of a {self.spec.cell_name}: choose "
+            f"This is done with struts and not with a TPMS ({self.spec.cell_name}): choose "
             "another cell."
         )
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What an endless lattice does, of struts or of walls."""
+"""What an endless lattice does, of struts or a TPMS."""
 
 from __future__ import annotations
 

@@ -152,7 +152,7 @@ class TpmsKind(LatticeKind):
         )  # fmt: skip
 
     def modulus(self, target: Target) -> float:
-        """Young's modulus of the endless walls along a target's direction."""
+        """Young's modulus of the endless TPMS along a target's direction."""
         return tpms_modulus(self.spec, target)
 
     def stiffened(self, target: Target) -> LatticeSpec:

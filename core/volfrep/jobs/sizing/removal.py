@@ -135,7 +135,7 @@ def without_thin_struts(
 
 
 def empty_places(before: Wireframe, after: Wireframe) -> list[dict[str, Any]]:
-    """Where a lattice has struts that another one has not: those that hang together are a place."""
+    """Where a lattice has struts that another one has not: those that are connected are a place."""
     ends = before.nodes[before.struts]
     left = after.nodes[after.struts].mean(axis=1)
     gone = np.flatnonzero(cKDTree(left).query(ends.mean(axis=1))[0] > _SAME)

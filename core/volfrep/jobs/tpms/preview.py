@@ -119,7 +119,7 @@ def _surface(
 
 @dataclass(frozen=True, eq=False)
 class _Where:
-    """Where the surface of walls lies in a part; see `preview_tpms`."""
+    """Where a TPMS lies in a part; see `preview_tpms`."""
 
     spec: LatticeSpec
     placement: Placement

@@ -106,7 +106,7 @@ def homogenise_tpms(
         name: of the surface, for the sentences.
 
     Raises:
-        VolfrepError: the solid does not hang together.
+        VolfrepError: the solid is not connected.
     """
     if along is None:
         along = usual_along(solid, density, octant=octant)

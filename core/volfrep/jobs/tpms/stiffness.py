@@ -68,7 +68,7 @@ def solve_tpms_stiffness(spec: LatticeSpec, target: Target, *, rough: bool = Fal
 
 
 def tpms_modulus(spec: LatticeSpec, target: Target) -> float:
-    """Young's modulus along the target's direction of a specification's endless walls.
+    """Young's modulus along the target's direction of a specification's endless TPMS.
 
     Raises:
         VolfrepError: they carry no load.

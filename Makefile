@@ -13,7 +13,7 @@ SCREEN := xvfb-run -a -s "-screen 0 1600x1200x24 -dpi 96"
 .NOTPARALLEL:
 .PHONY: help setup setup-light demo check test test-all test-slow lint format test-core test-random test-alone test-freecad \
 	test-gui test-in-freecad test-freecad-1 translations test-newest docs-pictures docs-tables \
-	digests vocabulary validate release test-wheel test-wine test-release site test-escape test-menu torture fuzz bench bench-quick bench-readme catalogue clean
+	digests vocabulary validate release test-wheel test-wine test-release site test-escape test-menu torture fuzz bench bench-quick bench-readme catalogue crush-curves clean
 
 help: ## show this list
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 25
@@ -134,6 +134,9 @@ docs-tables: setup ## the documentation's tables of parameters anew, from the pr
 
 catalogue: setup ## cells that the catalogue lacks, and the charts of docs/cells.md (half a minute a cell)
 	@$(PYTHON) tools/catalogue.py $(CATALOGUE_ARGS)
+
+crush-curves: setup ## the crush curves that ship and are missing (some seconds to a minute each)
+	@$(PYTHON) tools/crush_curves.py
 
 validate: setup ## predictions beside printed specimens, and the figures of docs/validation.md (5 min)
 	@$(PYTHON) tools/validate.py $(VALIDATE)

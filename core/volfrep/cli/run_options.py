@@ -465,7 +465,7 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "radii", ("homogenise",),
-        "what was sized, as --radius-field reads it, of struts or walls", "FILE.csv",
+        "what was sized, as --radius-field reads it, of struts or a TPMS", "FILE.csv",
         GOAL_GROUP, writes="radii",
     ),
     RunOption(
@@ -580,6 +580,10 @@ RUN_OPTIONS = (
     RunOption(
         "relative-density", ("find",), "from 0 to 1; with a modulus too the nearest cells are "
         "first", "D", read=float,
+    ),
+    RunOption(
+        "plateau", ("find",), "in place of these, of a block crushed between plates; those that "
+        "absorb most are first", "MPA", read=float,
     ),
     RunOption(
         "direction", ("find",), "of the modulus: x, y, z, 100, 110, 111 or X,Y,Z (default x)", "D",

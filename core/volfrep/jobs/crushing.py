@@ -15,6 +15,7 @@ from ..design.parameters.keywords import as_cell
 from ..design.spec import LatticeSpec
 from ..fem.beam_mesh import BeamMesh, fitted_beams
 from ..mechanics.corotational import SWINGING, Balance, Beams
+from ..mechanics.crush_curves import PLATEAU_FROM, mean_stress, work
 from ..mechanics.density import radius_of_density
 from ..mechanics.density import relative_density as density_of
 from ..mechanics.materials import SolidMaterial, find_material
@@ -25,11 +26,10 @@ from ..util.showing import Shown
 from ..util.types import Floats
 from .blocks import block_wireframe
 
-#: Strain from which on the plateau is averaged (ISO 13314); it ends where the curve does.
-PLATEAU_FROM = 0.2
 MOST_STRAIN = 0.5
-#: The slope of stress over plastic strain, in units of E: tables of printed materials tell none.
-HARDENING = 0.01
+#: The slope of stress over plastic strain, in units of the yield stress: tables of printed
+#: materials tell none, and metals and plastics have about this one.
+HARDENING = 1.0
 #: Elements between the stiff ends of a strut.
 ELEMENTS = 4
 #: How far nodes are off their places, in units of r, so that straight struts find their way to
@@ -42,8 +42,8 @@ LARGEST, LEAST, GROWTH = 0.01, 1e-5, 1.25
 FOLDED = 2.6
 #: Drag on nodes that leave the block's even squeeze, in units of E r^2 / L: it carries a strut that
 #: snaps through to its next balance, where none lies near; up to how many times ten where that does
-#: not do; and the share of the work from which on what it takes is told.
-DRAG, MOST_DRAG, TOLD_DRAG = 1e-3, 4, 0.03
+#: not do; and the share of the work, %, from which on what it takes is told.
+DRAG, MOST_DRAG, TOLD_DRAG = 1e-3, 4, 3.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -87,17 +87,11 @@ class CrushCurve(Shown):
     @property
     def plateau(self) -> float | None:
         """The mean stress from a strain of 20 % to the end, MPa; None where it ends before."""
-        end = float(self.strain[-1])
-        if end <= PLATEAU_FROM:
-            return None
-        return (self.energy_to(end) - self.energy_to(PLATEAU_FROM)) / (end - PLATEAU_FROM)
+        return mean_stress(self.strain, self.stress, PLATEAU_FROM)
 
     def energy_to(self, strain: float) -> float:
         """What is absorbed up to a strain, mJ/mm3 (MJ/m3)."""
-        inside = self.strain < strain
-        strains = np.append(self.strain[inside], strain)
-        stresses = np.append(self.stress[inside], np.interp(strain, self.strain, self.stress))
-        return float(0.5 * (np.diff(strains) * (stresses[1:] + stresses[:-1])).sum())
+        return work(self.strain, self.stress, strain)
 
     def rows(self) -> list[tuple[str, str]]:
         """Names and values, for people."""
@@ -154,7 +148,7 @@ def crush(
     """Crush a block of cells along z between two rough plates.
 
     Struts are beams that turn, buckle and yield (`mechanics.corotational`), with the ends that were
-    fitted to the cell, and harden beyond their yield stress by a hundredth of E. They neither break
+    fitted to the cell; a plastic strain of 1 adds the yield stress once more. They neither break
     nor touch each other, so that the steep end of a real curve, where the lattice is dense, is
     missing.
 
@@ -273,9 +267,8 @@ def _pressed(
                 level = max(level - 1, 0) if step > 0.1 * LARGEST else level
     if len(strains) == 1:
         raise VolfrepError("No equilibrium was found for the first step: use thinner struts.")
-    work = (high - low) * float(np.trapz(forces, strains))
-    if lost > TOLD_DRAG * work:
-        share = 100 * lost / work
+    share = 100.0 * lost / ((high - low) * work(np.array(strains), np.array(forces), strain))
+    if share > TOLD_DRAG:
         notes += (f"Struts snap: {share:.0f} % of the work went into what slows them.",)
     return np.array(strains), np.array(forces), notes
 
@@ -294,7 +287,8 @@ def _beams(mesh: BeamMesh, solid: SolidMaterial) -> Beams:
     nodes += IMPERFECTION * float(mesh.radii.min()) * off
     stiffer = np.array([ends.axial**2 / ends.bending for ends in mesh.ends])[mesh.section]
     young = solid.young * np.where(mesh.is_joint, stiffer, 1.0)
-    limit = np.inf if solid.yield_stress is None else solid.yield_stress
-    limits = np.where(mesh.is_joint, np.inf, limit)
+    limit = solid.yield_stress
+    limits = np.where(mesh.is_joint, np.inf, np.inf if limit is None else limit)
+    hardening = HARDENING * (limit or 0.0)
     radii = mesh.radii[mesh.section]
-    return Beams(nodes, mesh.elements, radii, young, limits, solid.poisson, HARDENING)
+    return Beams(nodes, mesh.elements, radii, young, limits, solid.poisson, hardening)

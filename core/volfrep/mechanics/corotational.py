@@ -65,7 +65,7 @@ class Beams:
         young: Floats,
         yield_stress: ArrayLike,
         poisson: float,
-        hardening: float,
+        hardening: float = 0.0,
     ) -> None:
         """Beams before they are loaded.
 
@@ -76,7 +76,7 @@ class Beams:
             young: (e,) MPa.
             yield_stress: (e,) MPa; infinite for what does not yield.
             poisson: the ratio of all.
-            hardening: slope of stress over plastic strain, in units of E.
+            hardening: slope of stress over plastic strain, MPa.
         """
         span = nodes[elements[:, 1]] - nodes[elements[:, 0]]
         self.nodes, self.elements, self.young = nodes, elements, young
@@ -86,7 +86,7 @@ class Beams:
         aside /= np.linalg.norm(aside, axis=1, keepdims=True)
         self.axes = np.stack([along, aside, np.cross(along, aside)], axis=2)
         self.yield_stress = np.broadcast_to(np.asarray(yield_stress, float), young.shape)
-        self.hardening = hardening * young
+        self.hardening = hardening
         area, shear = np.pi * radii**2, young / (2.0 * (1.0 + poisson))
         self.torsion = 0.5 * shear * area * radii**2 / self.length
         places, shares = circle_fibres()
@@ -165,7 +165,7 @@ class Beams:
         strains = np.einsum("egsk,ek->egs", self.section, local)
         y, z = self.fibres[:, None, :, 0], self.fibres[:, None, :, 1]
         strain = strains[..., :1] + z * strains[..., 1:2] - y * strains[..., 2:3]
-        young, hardening = self.young[:, None, None], self.hardening[:, None, None]
+        young, hardening = self.young[:, None, None], self.hardening
         stress = young * (strain - plastic)
         over = np.abs(stress - hardening * plastic) - self.yield_stress[:, None, None]
         yields = over > 0.0

@@ -26,13 +26,16 @@ def test_upright_struts_are_squashed_at_their_yield_stress():
 
 
 def test_a_cell_is_crushed_as_its_tetrahedra_are():
-    # CalculiX, C3D10 with NLGEOM: 10,061 nodes, plates at the outer joints' middles.
-    strain = [0.004, 0.023, 0.0374, 0.0558, 0.0758, 0.0958, 0.1258, 0.1558, 0.2]
-    stress = [1.082, 6.185, 7.073, 7.606, 7.869, 7.935, 7.900, 7.806, 7.653]
+    # CalculiX, C3D10 with NLGEOM: 10,061 nodes, plates at the outer joints' middles, hardening by
+    # the yield stress over a plastic strain of 1.
+    strain = [0.004, 0.014, 0.023, 0.033, 0.053, 0.073, 0.093, 0.123, 0.153, 0.2]
+    stress = [1.082, 3.806, 6.187, 7.181, 7.897, 8.165, 8.297, 8.410, 8.480, 8.553]
     found = crush("BCC", 10, 1, material="PA12", count=1, strain=0.2)
-    assert np.interp(strain, found.strain, found.stress) == pytest.approx(stress, rel=0.1)
-    assert found.peak[1] == pytest.approx(max(stress), rel=0.03)
-    assert found.energy_to(0.2) == pytest.approx(np.trapz([0, *stress], [0, *strain]), rel=0.03)
+    told = np.interp(strain, found.strain, found.stress)
+    assert told == pytest.approx(stress, rel=0.1)  # 9 % too stiff at first
+    assert told[3:] == pytest.approx(stress[3:], rel=0.04)
+    solid = np.trapz([0, *stress], [0, *strain])
+    assert found.energy_to(0.2) == pytest.approx(solid, rel=0.03)
 
 
 def test_rubber_comes_back_and_stiff_cells_soften():

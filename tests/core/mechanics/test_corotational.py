@@ -19,7 +19,7 @@ def rod(length: float, count: int, yields: bool, offset: float = 0.0) -> Beams:
     elements = np.stack([np.arange(count), np.arange(count) + 1], axis=1)
     every = np.ones(count)
     limit = YIELD if yields else np.inf
-    return Beams(nodes, elements, RADIUS * every, YOUNG * every, limit, 0.0, 1e-4)
+    return Beams(nodes, elements, RADIUS * every, YOUNG * every, limit, 0.0)
 
 
 def led(beams: Beams, held: dict[int, Sequence[int]], moves: dict[tuple[int, int], float],

@@ -205,7 +205,7 @@ def read_many_notes(doc, obj):
     click(toolbar_button("Cell Library"))
     wait_until(lambda: window("VolfrepCellLibrary") is not None)
     library = window("VolfrepCellLibrary")
-    library._say(
+    library._note.say(
         "\n".join(f"Sentence {k} about what was drawn, and that is long." for k in range(40))
     )
     settle()

@@ -105,6 +105,9 @@ def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
     titles = [table.title for table in outcome.tables()]
     assert titles[:2] == ["Struts", "Load case bend"]
     assert titles[-1] == "Steps"
+    page = outcome.page("Beam")
+    assert "Beam: sized for loads" in page
+    assert "<svg" in page, "its loads are drawn"
     together = dict(row[:2] for row in outcome.tables()[1].rows)
     assert together["load before struts buckle together, times"] > 1.0
     if shutil.which("ccx"):

@@ -10,6 +10,7 @@ from itertools import pairwise
 import FreeCAD as App
 import FreeCADGui as Gui
 from driving import (
+    OUT,
     answer_file_dialog,
     answer_panel,
     check,
@@ -434,6 +435,12 @@ def load_by_clicks(doc, obj):
     check("in ten clicks", len(clicks) <= 10, len(clicks))
     check("the symbols go out of the view", not force.ViewObject.Visibility)
     picture("loads_4_report")
+    page = OUT / "sizing.html"
+    page.unlink(missing_ok=True)
+    answer_file_dialog(page, "save_sizing")
+    click(reports()[0].findChild(QtGui.QPushButton, "Save..."))
+    check("its page is saved", wait_until(page.is_file))
+    check("with a drawing of the loads", page.is_file() and "<svg" in page.read_text())
     reports()[0].close()
     settle()
     while doc.UndoCount > steps:

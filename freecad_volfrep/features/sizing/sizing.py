@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from volfrep.jobs.sizing import Goal, Printing, SizedPart
     from volfrep.loads.load_cases import LoadCases
     from volfrep.mechanics.materials import SolidMaterial
+    from volfrep.mesh.triangle_mesh import TriangleMesh
     from volfrep.sizing.optimise import Step
     from volfrep.sizing.strut_state import StrutState
 
@@ -63,6 +64,7 @@ class Outcome:
         density: of the material, g/cm3.
         steps: rows of the table of steps.
         loads: what it was sized for.
+        solid: the part, mm.
     """
 
     part: SizedPart
@@ -70,6 +72,7 @@ class Outcome:
     density: float
     steps: tuple[tuple[str, ...], ...]
     loads: LoadCases
+    solid: TriangleMesh
 
     @property
     def holds(self) -> bool:
@@ -254,6 +257,12 @@ class Outcome:
             tables.append(Table("Notes", notes))
         header = ("step", "mass, g", "work of the loads, N mm", "most used limit")
         return [*tables, Table("Steps", self.steps, header)]
+
+    def page(self, name: str) -> str:
+        """The report as a page to print, in English, of a part of a name."""
+        from volfrep.reports.sizing_page import sizing_page
+
+        return sizing_page(self.part.report, self.solid, self.loads, name)
 
     def to_json(self) -> str:
         """All figures, as the infill keeps them."""
@@ -452,7 +461,7 @@ def size_struts(
     )
     steps.append(_row(len(steps), part.sized.last, density))
     states = part.states
-    return Outcome(part, states, density, tuple(steps), loads)
+    return Outcome(part, states, density, tuple(steps), loads, solid)
 
 
 def loads_of(obj: App.DocumentObject, analyses: Sequence[App.DocumentObject]) -> LoadCases:

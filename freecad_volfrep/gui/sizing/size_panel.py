@@ -180,7 +180,8 @@ class SizePanel:
         self._loads.end(is_kept=True)
         self._doc.commitTransaction()
         self._close()
-        show_report(self._title, f"{self._obj.Label} sizing", outcome.tables())
+        label = self._obj.Label
+        show_report(self._title, f"{label} sizing", outcome.tables(), lambda: outcome.page(label))
         return True
 
     @property

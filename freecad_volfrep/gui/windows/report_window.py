@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import FreeCADGui as Gui
@@ -80,14 +81,18 @@ class ReportWindow(QtWidgets.QDialog):
         title: of the window.
         name: proposed for the file, without a suffix.
         tables: what it shows.
+        page: what is saved as HTML; None for the tables.
     """
 
-    def __init__(self, title: str, name: str, tables: list[Table]) -> None:
+    def __init__(
+        self, title: str, name: str, tables: list[Table], page: Callable[[], str] | None = None
+    ) -> None:
         super().__init__(Gui.getMainWindow())
         self.setObjectName("VolfrepReport")
         self.setWindowTitle(title)
         self.resize(*SIZE)
         self._name, self._tables = name, tables
+        self._page = page or (lambda: as_html(tables))
         self.text = QtWidgets.QTextBrowser()
         self.text.setHtml(as_html(tables, _said))
         column = QtWidgets.QVBoxLayout(self)
@@ -122,21 +127,24 @@ class ReportWindow(QtWidgets.QDialog):
             self.save(path)
 
     def save(self, path: str) -> None:
-        """Write the tables as HTML where the name ends in .html, else as CSV.
+        """Write the page where the name ends in .html, else the tables as CSV.
 
         Raises:
             VolfrepError: the file cannot be written, or an open document reads it; it stays.
         """
         refuse_inputs_of_all(path)
         is_html = Path(path).suffix.lower() in (".html", ".htm")
+        text = self._page() if is_html else as_csv(self._tables)
         with replacing(path) as file:
-            file.write((as_html if is_html else as_csv)(self._tables).encode())
+            file.write(text.encode())
         tell_written(path)
 
 
-def show_report(title: str, name: str, tables: list[Table]) -> ReportWindow:
-    """Open a window of tables; it goes when it is closed."""
-    window = ReportWindow(title, name, tables)
+def show_report(
+    title: str, name: str, tables: list[Table], page: Callable[[], str] | None = None
+) -> ReportWindow:
+    """Open a window of tables (see `ReportWindow`); it goes when it is closed."""
+    window = ReportWindow(title, name, tables, page)
     window.setAttribute(QtCore.Qt.WA_DeleteOnClose)
     window.show()
     return window

@@ -34,7 +34,7 @@ def test_a_cell_is_crushed_as_its_tetrahedra_are():
     told = np.interp(strain, found.strain, found.stress)
     assert told == pytest.approx(stress, rel=0.1)  # 9 % too stiff at first
     assert told[3:] == pytest.approx(stress[3:], rel=0.04)
-    solid = np.trapz([0, *stress], [0, *strain])
+    solid = 0.5 * np.diff([0, *strain]) @ np.convolve([0, *stress], [1, 1], "valid")
     assert found.energy_to(0.2) == pytest.approx(solid, rel=0.03)
 
 

@@ -87,7 +87,7 @@ def load_picture(
             acceleration,
             arrow_text(case.acceleration, "g", 1 / 9806.65),
         )
-    stage.addarrow_text(case.name, font_size=int(size[0] / 70), color="black")
+    stage.add_text(case.name, font_size=int(size[0] / 70), color="black")
     show_stage(stage, file, y_up=y_up, zoom=1.15)
 
 

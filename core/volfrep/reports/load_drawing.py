@@ -7,13 +7,14 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from ..loads.load_cases import Force, LoadCase, Moment, Pressure
-from ..loads.nodal_loads import Body, nodes_in, share_of
+from ..loads.load_cases import LoadCase
+from ..loads.nodal_loads import Body, nodes_in
 from ..loads.regions import Region
 from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.types import Bools, Floats
-from .load_picture import ARROW, HELD, LOADED, arrow_text
+from .load_arrows import ARROW, Arrow, arrows_of, solid_body
+from .load_picture import HELD, LOADED
 
 #: Of the part on the drawing, px; what stays free about it; half a figure's width and height.
 _SIDE, _BORDER, _FIGURE = 300.0, 10.0, (45.0, 16.0)
@@ -37,34 +38,15 @@ def load_drawing(solid: TriangleMesh, case: LoadCase) -> str:
     Raises:
         VolfrepError: nothing of the part lies where the case has a support or a load.
     """
-    count = len(solid.vertices)
-    body = Body(
-        solid.vertices, solid.triangles.astype(np.int64), np.zeros(count), np.ones(count, bool)
-    )
+    body = solid_body(solid)
     sheet = _Sheet(solid)
     parts = [*sheet.edges(solid)]
     for support in case.supports:
         parts += sheet.region(solid, body, support.region, HELD)
-    arrows = []
     for load in case.loads:
         parts += sheet.region(solid, body, load.region, LOADED)
-        share = share_of(body, load.region)
-        place = share.weights @ body.nodes[share.nodes]
-        if isinstance(load, Pressure):
-            push = np.sign(load.pressure) * share.pushes
-            strongest = int(np.argmax(np.linalg.norm(push, axis=1)))
-            place = body.nodes[share.nodes[strongest]]
-            arrows.append((place, push[strongest], f"{load.pressure:.4g} MPa", 1))
-        elif isinstance(load, Moment):
-            arrows.append((place, np.array(load.moment), arrow_text(load.moment, "N m", 1e-3), 2))
-        elif isinstance(load, Force):
-            at = place if load.at is None else np.array(load.at)
-            arrows.append((at, np.array(load.force), arrow_text(load.force, "N", 1.0), 1))
-    if any(case.acceleration):
-        told = arrow_text(case.acceleration, "g", 1 / 9806.65)
-        arrows.append((solid.bounds.mean(axis=0), np.array(case.acceleration), told, 1))
-    for place, along, told, heads in arrows:
-        parts += sheet.arrow(place, along, told, heads)
+    for arrow in arrows_of(body, case):
+        parts += sheet.arrow(body, arrow)
     return "\n".join(
         [
             '<svg xmlns="http://www.w3.org/2000/svg" '
@@ -90,8 +72,6 @@ class _Sheet:
         span = np.maximum(np.ptp(flat, axis=0), 1e-9)
         self.scale = _SIDE / float(span.max())
         self._reached = [np.zeros(2), self.scale * span]
-        self.size = float(np.linalg.norm(np.ptp(solid.vertices, axis=0)))
-        self.middle = solid.bounds.mean(axis=0)
 
     def at(self, points: Floats) -> Floats:
         """(n, 2) px, of (n, 3) mm."""
@@ -138,29 +118,30 @@ class _Sheet:
             f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{colour}"/>' for x, y in places.tolist()
         ]
 
-    def arrow(self, place: Floats, along: Floats, told: str, heads: int) -> list[str]:
-        """An arrow that ends at a place if it points into the part there, else begins there."""
-        way = along / max(float(np.linalg.norm(along)), 1e-300)
-        outwards = float(way @ (place - self.middle)) >= -1e-3 * self.size
-        start = place if outwards else place - ARROW * self.size * way
-        (x, y), (u, v) = self.at(np.stack([start, start + ARROW * self.size * way])).tolist()
+    def arrow(self, body: Body, arrow: Arrow) -> list[str]:
+        """An arrow with its text."""
+        start, way, outwards = arrow.drawn(body)
+        (x, y), (u, v) = self.at(np.stack([start, start + ARROW * body.size * way])).tolist()
         line = np.array([u - x, v - y])
         length = float(np.linalg.norm(line))
         if length < 1.0:  # along the view
             return [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="{LOADED}"/>',
-                    *self._label(x + 8.0, y, told)]  # fmt: skip
+                    *self._label(x + 8.0, y, arrow.text)]  # fmt: skip
         step, aside = line / length, np.array([-line[1], line[0]]) / length
         found = [
             f'<path d="M{x:.1f} {y:.1f}L{u:.1f} {v:.1f}" stroke="{LOADED}" stroke-width="2.5"/>'
         ]
-        for head in range(heads):
+        for head in range(arrow.heads):
             tip = np.array([u, v]) - 10.0 * head * step
             one, two = tip - 11.0 * step + 5.0 * aside, tip - 11.0 * step - 5.0 * aside
             points = " ".join(f"{a:.1f},{b:.1f}" for a, b in (tip, one, two))
             found.append(f'<polygon points="{points}" fill="{LOADED}"/>')
         end = (u, v) if outwards else (x, y)
         beyond = step if outwards else -step
-        return [*found, *self._label(end[0] + 10.0 * beyond[0], end[1] + 14.0 * beyond[1], told)]
+        return [
+            *found,
+            *self._label(end[0] + 10.0 * beyond[0], end[1] + 14.0 * beyond[1], arrow.text),
+        ]
 
     def _label(self, x: float, y: float, told: str) -> list[str]:
         place = np.array([x, y])

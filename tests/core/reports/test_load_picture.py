@@ -9,8 +9,9 @@ import pytest
 from bench.parts import lug_bracket
 from volfrep.loads.load_cases import Force, LoadCase, Support
 from volfrep.loads.load_file import read_load_cases
-from volfrep.loads.nodal_loads import Body, nodal_case
+from volfrep.loads.nodal_loads import nodal_case
 from volfrep.loads.regions import InPlane, NearPoint
+from volfrep.reports.load_arrows import solid_body
 from volfrep.reports.load_picture import load_picture
 from volfrep.util.errors import VolfrepError
 
@@ -19,10 +20,7 @@ LOADS = Path(__file__).resolve().parents[3] / "demo" / "bracket_loads.toml"
 
 def test_every_load_of_the_documented_bracket_finds_its_place():
     bracket = lug_bracket()
-    count = len(bracket.vertices)
-    body = Body(
-        bracket.vertices, bracket.triangles.astype(np.int64), np.zeros(count), np.ones(count, bool)
-    )
+    body = solid_body(bracket)
     for case in read_load_cases(LOADS, bracket).cases:
         laid = nodal_case(body, case)
         held = body.nodes[laid.fixed[:, 0]]

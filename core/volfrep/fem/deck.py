@@ -159,7 +159,7 @@ def width_of_ends(ends: Ends) -> float:
 
 def stiff_materials(model: BeamMesh, name: str) -> list[tuple[str, float]]:
     """For each section the name of its ends' material, and its E over the struts'."""
-    factors = [f"{ends.axial**2 / ends.bending:.6g}" for ends in model.ends]
+    factors = [f"{ends.modulus:.6g}" for ends in model.ends]
     kinds = list(dict.fromkeys(factors))
     number = {factor: str(k + 1) if len(kinds) > 1 else "" for k, factor in enumerate(kinds)}
     return [(f"{name}_END{number[factor]}", float(factor)) for factor in factors]

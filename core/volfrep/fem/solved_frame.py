@@ -199,7 +199,7 @@ def _beams(nodes: Floats, model: BeamMesh, material: Material) -> Iterator[bytes
         fitted, side = model.ends[model.section[row]], SQUARE * model.radii[model.section[row]]
         factor, wide = 1.0, 1.0
         if model.is_joint[row]:
-            factor, wide = fitted.axial**2 / fitted.bending, width_of_ends(fitted)
+            factor, wide = fitted.modulus, width_of_ends(fitted)
         young, weight = material.young * factor, material.density * 1e-9 / section_area / wide**2
         x, y = (",".join(f"{value:.12g}" for value in way) for way in (axis, aside))
         yield (

@@ -14,6 +14,7 @@ from ..design.drawn_cell import DrawnCell
 from ..design.parameters.keywords import as_cell
 from ..design.spec import LatticeSpec
 from ..fem.beam_mesh import BeamMesh, fitted_beams
+from ..fem.deck import sides
 from ..mechanics.corotational import SWINGING, Balance, Beams
 from ..mechanics.crush_curves import PLATEAU_FROM, mean_stress, work
 from ..mechanics.density import radius_of_density
@@ -163,7 +164,7 @@ def crush(
         progress: called with the fraction done and the stage; returning False cancels.
 
     Raises:
-        VolfrepError: a value makes no sense, or the cell is of walls.
+        VolfrepError: a value makes no sense, or the cell is a TPMS.
         Cancelled: the callback said so.
 
     >>> found = crush("Kelvin", 10, 0.6, material="PA12", count=1, strain=0.02)
@@ -181,16 +182,14 @@ def crush(
         raise VolfrepError("Give either a strut radius or a relative density.")
     if relative_density is not None:
         number("relative density", relative_density, "", positive=True)
-    spec = LatticeSpec(
-        cell=given, cell_size=cell_size, strut_radius=strut_radius or 0.1 * cell_size
-    )
+    first = 0.1 * cell_size if strut_radius is None else strut_radius
+    spec = LatticeSpec(cell=given, cell_size=cell_size, strut_radius=first)
     wireframe = block_wireframe(spec, (count, count, count))
     unit = spec.unit_cell()
     if strut_radius is None:
         assert relative_density is not None
         strut_radius = cell_size * radius_of_density(unit, relative_density)
-        thicker = strut_radius / (0.1 * cell_size)
-        wireframe = replace(wireframe, radii=thicker * wireframe.radii)
+        wireframe = replace(wireframe, radii=strut_radius / first * wireframe.radii)
     model, notes = fitted_beams(
         wireframe, None, unit, cell_size, section="circle", elements_per_strut=ELEMENTS
     )
@@ -219,13 +218,11 @@ def _pressed(
         (k,) strains, (k,) forces, N, and sentences on why it ends before, and on what it lost.
     """
     beams = _beams(mesh, solid)
-    heights = mesh.nodes[: mesh.joints, 2]
-    low, high = float(heights.min()), float(heights.max())
-    near = 1e-6 * (high - low)
-    top = np.zeros(len(mesh.nodes), bool)
-    top[: mesh.joints] = heights > high - near
-    held = top.copy()
-    held[: mesh.joints] |= heights < low + near
+    plates = sides(mesh.nodes[: mesh.joints])
+    bottom, top = plates["ZMIN"], plates["ZMAX"]
+    low, high = float(mesh.nodes[bottom, 2].min()), float(mesh.nodes[top, 2].max())
+    held = np.zeros(len(mesh.nodes), bool)
+    held[bottom] = held[top] = True
     least = DRAG * solid.young * float(mesh.radii.min()) ** 2 / cell_size
     solver = Balance(beams, np.repeat(~held, 6))
     depth = (mesh.nodes[:, 2] - low) / (high - low)
@@ -285,7 +282,7 @@ def _beams(mesh: BeamMesh, solid: SolidMaterial) -> Beams:
     nodes = mesh.nodes.copy()
     off = np.random.default_rng(0).uniform(-1.0, 1.0, (len(nodes), 3))
     nodes += IMPERFECTION * float(mesh.radii.min()) * off
-    stiffer = np.array([ends.axial**2 / ends.bending for ends in mesh.ends])[mesh.section]
+    stiffer = np.array([ends.modulus for ends in mesh.ends])[mesh.section]
     young = solid.young * np.where(mesh.is_joint, stiffer, 1.0)
     limit = solid.yield_stress
     limits = np.where(mesh.is_joint, np.inf, np.inf if limit is None else limit)

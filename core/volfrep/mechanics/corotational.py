@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
+from ..util.linalg import cross_matrix
 from ..util.types import Bools, Floats, Ints
 from .frame import CIRCLE
 
@@ -90,8 +91,10 @@ class Beams:
         area, shear = np.pi * radii**2, young / (2.0 * (1.0 + poisson))
         self.torsion = 0.5 * shear * area * radii**2 / self.length
         places, shares = circle_fibres()
-        self.fibres = places * radii[:, None, None]
-        self.areas = shares * area[:, None]
+        y, z = np.moveaxis(places * radii[:, None, None], -1, 0)
+        # What a fibre takes of strain and curvatures, and of what length and section it is.
+        self.levers = np.stack([np.ones_like(y), z, -y], axis=-1)
+        self.volumes = (0.5 * self.length)[:, None] * (shares * area[:, None])
         slip = 3.0 * young * radii**2 / (CIRCLE.shear * shear * self.length**2)
         # What half the sum of both ends' turns makes of shear strain, and of its energy.
         self.shear = CIRCLE.shear * shear * area * self.length * (slip / (1.0 + slip)) ** 2
@@ -109,7 +112,7 @@ class Beams:
 
     def at_rest(self) -> State:
         """The beams before they are loaded."""
-        count, fibres = len(self.elements), self.fibres.shape[1]
+        count, fibres = self.volumes.shape
         return State(
             self.nodes.copy(),
             np.tile(np.eye(3), (len(self.nodes), 1, 1)),
@@ -163,8 +166,7 @@ class Beams:
         ratio = self.length / (self.length + local[:, 0])
         local = np.concatenate([-(self.length * np.log(ratio))[:, None], local[:, 1:]], axis=1)
         strains = np.einsum("egsk,ek->egs", self.section, local)
-        y, z = self.fibres[:, None, :, 0], self.fibres[:, None, :, 1]
-        strain = strains[..., :1] + z * strains[..., 1:2] - y * strains[..., 2:3]
+        strain = np.einsum("egs,efs->egf", strains, self.levers)
         young, hardening = self.young[:, None, None], self.hardening
         stress = young * (strain - plastic)
         over = np.abs(stress - hardening * plastic) - self.yield_stress[:, None, None]
@@ -173,10 +175,9 @@ class Beams:
         flow *= np.sign(stress - hardening * plastic)
         stress -= young * flow
         slope = np.where(yields, young * hardening / (young + hardening), young)
-        levers = np.stack(np.broadcast_arrays(1.0, z, -y), axis=-1)  # (e, 1, f, 3)
-        weight = (0.5 * self.length)[:, None, None] * self.areas[:, None, :]
-        resultants = np.einsum("egf,efs->egs", weight * stress, levers[:, 0])
-        tangent = np.einsum("egf,efs,eft->egst", weight * slope, levers[:, 0], levers[:, 0],
+        volumes = self.volumes[:, None]
+        resultants = np.einsum("egf,efs->egs", volumes * stress, self.levers)
+        tangent = np.einsum("egf,efs,eft->egst", volumes * slope, self.levers, self.levers,
                             optimize=True)  # fmt: skip
         forces = np.einsum("egsk,egs->ek", self.section, resultants)
         stiffness = np.einsum("egsk,egst,egtm->ekm", self.section, tangent, self.section,
@@ -218,7 +219,8 @@ class Balance:
         columns, self.rows = places // size, places % size
         self.pointers = np.searchsorted(columns, np.arange(size + 1))
         # Moments count like forces at an element's length.
-        self.weight = np.repeat([1.0, 1.0 / float(beams.length.mean())], 3)
+        weight = np.repeat([1.0, 1.0 / float(beams.length.mean())], 3)
+        self.weight = np.tile(weight, size // 6)
         # Of the last balance, in which fibres that yield yielded on: what a next push meets first.
         self.stiffness: Floats | None = None
 
@@ -236,14 +238,13 @@ class Balance:
         now, even = state, even.ravel()
         given = np.where(self.free, 0.0, even)
         done = np.zeros_like(even)
-        drag = np.tile(self.drag / self.weight**2, len(even) // 6)
+        drag = self.drag / self.weight**2
         for corrections in range(CORRECTIONS + 1):
             local, stiffness, plastic = self.beams.respond(now)
             forces = np.bincount(self.unknown, local.ravel(), len(even)).astype(np.float64)
             dragged = forces + drag * (done - even)
-            weighed = dragged * np.tile(self.weight, len(even) // 6)
-            loose = float(np.abs(weighed[self.free]).max())
-            largest = float(np.abs(local * np.tile(self.weight, 2)).max())
+            loose = float(np.abs((self.weight * dragged)[self.free]).max())
+            largest = float(np.abs(self.weight[:12] * local).max())
             enough = LEFT if corrections == CORRECTIONS else BALANCE
             if corrections and loose <= enough * largest:
                 self.stiffness = stiffness
@@ -282,7 +283,7 @@ def circle_fibres() -> tuple[Floats, Floats]:
 def rotations(vectors: Floats) -> Floats:
     """(n, 3, 3) rotations about (n, 3) axes by their lengths, radians (Rodrigues)."""
     angle = np.linalg.norm(vectors, axis=-1)
-    axis = _cross_matrix(vectors / np.maximum(angle, 1e-30)[..., None])
+    axis = cross_matrix(vectors / np.maximum(angle, 1e-30)[..., None])
     sine, versine = np.sin(angle)[..., None, None], (1.0 - np.cos(angle))[..., None, None]
     turned: Floats = np.eye(3) + sine * axis + versine * (axis @ axis)
     return turned
@@ -317,7 +318,7 @@ def _to_spins(local: Floats, forces: Floats, stiffness: Floats) -> None:
         sine, cosine, half = np.sin(angle), np.cos(angle), np.sin(0.5 * angle) ** 2
         second = (2.0 * sine - angle * (1.0 + cosine)) / (2.0 * angle**2 * sine)
         fourth = (angle * (angle + sine) - 8.0 * half) / (4.0 * angle**4 * half)
-        cross = _cross_matrix(turn)
+        cross = cross_matrix(turn)
         square = cross @ cross
         unit = np.eye(3)
         inverse = unit - 0.5 * cross + second[:, None, None] * square
@@ -325,19 +326,10 @@ def _to_spins(local: Floats, forces: Floats, stiffness: Floats) -> None:
         product = np.einsum("ei,ei->e", turn, moment)[:, None, None] * unit
         change = second[:, None, None] * (outer - 2.0 * outer.swapaxes(1, 2) + product)
         change += fourth[:, None, None] * square @ outer.swapaxes(1, 2)
-        extra[:, rows, rows] = (change - 0.5 * _cross_matrix(moment)) @ inverse
+        extra[:, rows, rows] = (change - 0.5 * cross_matrix(moment)) @ inverse
         turning[:, rows, rows] = inverse
     forces[:] = np.einsum("ekj,ek->ej", turning, forces)
     stiffness[:] = turning.swapaxes(1, 2) @ stiffness @ turning + extra
-
-
-def _cross_matrix(vectors: Floats) -> Floats:
-    """(..., 3, 3) what multiplies like a cross product with vectors from the left."""
-    found = np.zeros((*vectors.shape, 3))
-    x, y, z = np.moveaxis(vectors, -1, 0)
-    found[..., 0, 1], found[..., 0, 2], found[..., 1, 2] = -z, y, -x
-    found[..., 1, 0], found[..., 2, 0], found[..., 2, 1] = z, -y, x
-    return found
 
 
 def _global(
@@ -383,7 +375,7 @@ def _global(
     for row, column, sign in ((0, 0, 1), (6, 6, 1), (0, 6, -1), (6, 0, -1)):
         geometric[:, row : row + 3, column : column + 3] = sign * pulled
     of_moments = np.einsum("ekj,ek->ej", relative, forces[:, 1:])
-    turned = _cross_matrix(of_moments.reshape(count, 4, 3)).reshape(count, 12, 3)
+    turned = cross_matrix(of_moments.reshape(count, 4, 3)).reshape(count, 12, 3)
     geometric -= turned @ turn
     moments = forces[:, 1:4] + forces[:, 4:7]
     arm = np.zeros((count, 3))

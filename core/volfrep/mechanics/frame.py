@@ -49,6 +49,11 @@ class Ends:
     axial: float = 1.0
     bending: float = 1.0
 
+    @property
+    def modulus(self) -> float:
+        """Young's modulus of their material over the strut's, where width does the rest."""
+        return self.axial**2 / self.bending
+
 
 #: The stiffened ends of struts of a radius, mm.
 JointLaw = Callable[[float], Ends]

@@ -22,6 +22,7 @@ from ..grid.strut_graph import Wireframe
 from ..mechanics.elements import von_mises
 from ..mechanics.frame import Ends
 from ..mechanics.materials import SolidMaterial
+from ..util.linalg import cross_matrix
 from ..util.peaks import most_but_peaks
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
@@ -29,7 +30,7 @@ from .analysis import Analysis, Limits, Problem
 from .model import SizingModel
 from .skin import SkinModel
 from .strut_results import stresses
-from .tapered_beams import Beams, cross_matrix
+from .tapered_beams import Beams
 
 #: Beams of more struts are not solved by CalculiX unless it is asked for.
 MOST_PROVED = 6_000
@@ -386,7 +387,7 @@ def solid_skin(
     inertia = (arm**2).sum(axis=(1, 2))[:, None, None] * np.eye(3)
     inertia -= np.einsum("qwi,qwj->qij", arm, arm)
     lever = cross_matrix(model.nodes[tips] - middle) @ np.linalg.inv(inertia)
-    turned = lever[:, None] @ cross_matrix(arm.reshape(-1, 3)).reshape(*arm.shape, 3)
+    turned = lever[:, None] @ cross_matrix(arm)
     weights = np.where(is_there, 1.0 / number, 0.0)[:, :, None, None] * np.eye(3) - turned
 
     own = mesh.inner[skin.joined.vertices]

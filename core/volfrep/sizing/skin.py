@@ -29,12 +29,13 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.medial_balls import wall_thickness
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
+from ..util.linalg import cross_matrix
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .shell_elements import Shells, UnitBlocks, shells_of
 from .skin_mesh import even_surface
 from .structure import Blocks, MultiPointConstraints
-from .tapered_beams import Elastic, cross_matrix
+from .tapered_beams import Elastic
 
 #: A corner of the middle surface lies no farther from the outside's than this many times the depth.
 _FARTHEST = 2.0

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..util.linalg import cross_matrix
 from ..util.types import Floats
-from .tapered_beams import Beams, cross_matrix
+from .tapered_beams import Beams
 
 #: Pieces of a column: clamped at both ends, it buckles within 0.2 % of Euler's load.
 _PIECES = 6

@@ -15,6 +15,7 @@ from functools import partial
 import numpy as np
 
 from ..mechanics.frame import CIRCLE, JointLaw, Section
+from ..util.linalg import cross_matrix
 from ..util.types import Bools, Floats, Ints
 
 #: No stiffened end is longer than this part of its strut (as in the deck for CalculiX).
@@ -295,16 +296,6 @@ def energies(one: Floats, other: Floats) -> Floats:
         ],
         axis=1,
     )  # fmt: skip
-
-
-def cross_matrix(vectors: Floats) -> Floats:
-    """(n, 3, 3) by which each of (n, 3) vectors is crossed with another."""
-    result = np.zeros((len(vectors), 3, 3))
-    x, y, z = vectors.T
-    result[:, 2, 1], result[:, 1, 2] = x, -x
-    result[:, 0, 2], result[:, 2, 0] = y, -y
-    result[:, 1, 0], result[:, 0, 1] = z, -z
-    return result
 
 
 def _times(factors: Floats, matrices: Floats) -> Floats:

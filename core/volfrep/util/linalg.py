@@ -112,6 +112,16 @@ def turns(matrices: Floats) -> Floats:
     return np.asarray(np.einsum("nik,nkj->nij", matrices, inverse))
 
 
+def cross_matrix(vectors: Floats) -> Floats:
+    """(..., 3, 3) by which each of (..., 3) vectors is crossed with another."""
+    result = np.zeros((*vectors.shape, 3))
+    x, y, z = np.moveaxis(vectors, -1, 0)
+    result[..., 2, 1], result[..., 1, 2] = x, -x
+    result[..., 0, 2], result[..., 2, 0] = y, -y
+    result[..., 1, 0], result[..., 0, 1] = z, -z
+    return result
+
+
 def rotation(axis: Floats, angle: float) -> Floats:
     """(3, 3) the rotation about a (3,) axis by an angle in radians (Rodrigues)."""
     x, y, z = np.asarray(axis, float) / np.linalg.norm(axis)

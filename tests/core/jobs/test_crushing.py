@@ -75,5 +75,7 @@ def test_what_cannot_be_crushed_is_said():
         crush("BCC", 10, 1, material="PA12", strain=0.9)
     with pytest.raises(VolfrepError, match="either a strut radius"):
         crush("BCC", 10, material="PA12")
+    with pytest.raises(VolfrepError, match="strut radius"):
+        crush("BCC", 10, 0, material="PA12")
     with pytest.raises(volfrep.Cancelled):
         crush("BCC", 10, 1, material="PA12", count=1, progress=lambda done, stage: False)

@@ -23,11 +23,11 @@ from volfrep.sizing.strut_results import buckling_loads, columns_of, stresses
 from volfrep.sizing.tapered_beams import (
     Elastic,
     beams_of,
-    cross_matrix,
     end_table,
     energies,
 )
 from volfrep.util.errors import VolfrepError
+from volfrep.util.linalg import cross_matrix
 
 STEEL = Elastic(210_000.0, 0.3, 7.85e-9)
 #: A section that does not slide, as Euler's and Bernoulli's beams.

@@ -204,7 +204,9 @@ def sizing_model(
     places = nodes
     if skin is not None:
         tied = np.flatnonzero(on_boundary)
-        constraints = constraints_to(skin, nodes[tied], tied, len(nodes))
+        between_walls = struts[on_boundary[struts].all(axis=1)]
+        pieces = np.searchsorted(tied, between_walls)
+        constraints = constraints_to(skin, nodes[tied], tied, len(nodes), pieces)
         blocks = replace(
             skin.blocks,
             rows=skin.blocks.rows + len(nodes),

@@ -79,6 +79,7 @@ class Joined:
     shares: Floats
 
 
+NO_PIECES = np.empty((0, 2), np.int64)
 NOT_JOINED = Joined(np.empty(0, np.int64), np.empty((0, 3), np.int64), np.empty((0, 3)))
 NOTHING_BETWEEN = Blocks(*np.empty((2, 0), np.int64), *np.empty((2, 0, 6, 6)))
 
@@ -290,15 +291,19 @@ def skin_model(
 
 
 def constraints_to(
-    skin: SkinModel, nodes: Floats, rows: Ints, offset: int
+    skin: SkinModel, nodes: Floats, rows: Ints, offset: int, pieces: Ints = NO_PIECES
 ) -> MultiPointConstraints:
     """Struts' ends that move as the pad does on which they stand.
+
+    A piece between two walls that lies within a pad, as in the corner of a cavity, is one body with
+    the walls: both its ends move as that pad does.
 
     Args:
         skin: the shells.
         nodes: (k, 3) places of the struts' ends, mm.
         rows: (k,) their rows among the structure's nodes.
         offset: the row of the skin's first node among them.
+        pieces: (m, 2) which of them are the two ends of one piece of a strut.
     """
     triangles = skin.shells.triangles
     surface = TriangleMesh(skin.middle, triangles.astype(np.int32))
@@ -306,6 +311,9 @@ def constraints_to(
     leaders, shares = triangles[triangle], barycentric(skin.middle[triangles[triangle]], foot)
     vertex = skin.pad_of(nodes)
     stands = np.linalg.norm(foot - skin.middle[vertex], axis=1) < skin.pads[vertex]
+    one, two = pieces.T
+    short = np.linalg.norm(nodes[one] - nodes[two], axis=1) < 2.0 * skin.pads[vertex[one]]
+    stands[pieces[short & (vertex[one] == vertex[two])]] = True
     leaders[stands], shares[stands] = vertex[stands, None], (1.0, 0.0, 0.0)
     foot[stands] = skin.middle[vertex[stands]]
     arm = cross_matrix(nodes - foot)

@@ -314,6 +314,29 @@ def test_a_strut_that_ends_in_the_skin_moves_with_it():
     assert followed[:, 3:] == pytest.approx(np.tile(turn, (2, 1)))
 
 
+def test_a_piece_of_a_strut_in_the_corner_of_a_cavity_is_one_body_with_its_walls():
+    feet = Feet(np.array([[18.0, 13.0, 0.0]]), np.array([2.0]))
+    skin = skin_model(box(40, 30, 20), 2.0, 5.0, STEEL, feet=feet)
+    ends = np.array([[18.0, 11.5, 0.0], [16.5, 13.0, 0.0], [18.0, 0.0, 5.0]])
+    moved = np.random.default_rng(5).normal(size=(len(skin.middle), 6))
+    alone, one_body = (
+        np.einsum("tlij,tlj->ti", found.blocks, moved[found.leaders])
+        for found in (
+            constraints_to(skin, ends, np.arange(3), 0),
+            constraints_to(skin, ends, np.arange(3), 0, np.array([[0, 1], [1, 2]])),
+        )
+    )
+
+    def stretch(followed):
+        along = ends[1] - ends[0]
+        step = followed[1, :3] - followed[0, :3] - np.cross(followed[0, 3:], along)
+        return np.abs(np.append(step, followed[1, 3:] - followed[0, 3:])).max()
+
+    assert stretch(alone) > 0.1
+    assert stretch(one_body) < 1e-12
+    assert one_body[2] == pytest.approx(alone[2])
+
+
 @pytest.mark.parametrize(("parts", "within"), [(2, 0.05), (4, 0.01)])
 def test_a_pressed_square_plate_buckles_at_4_pi2_d_over_b2(parts, within):
     """Simply supported and pressed in one direction, so that its edges may move in its plane."""

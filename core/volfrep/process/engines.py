@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
+from importlib import import_module
 from typing import Any
 
 from ..util.errors import Cancelled, VolfrepError
@@ -37,9 +38,9 @@ class Engines:
         """Make a call; it begins when there is a process for it."""
         return Running(self, call)
 
-    def warm(self) -> None:
-        """See to it that a process waits for the next call."""
-        self.begin(Call(_nothing, has_progress=False))
+    def warm(self, *modules: str) -> Running:
+        """See to it that a process waits for the next call, with these modules imported."""
+        return self.begin(Call(_load, modules, has_progress=False))
 
     def end(self) -> None:
         """End the processes that make no call."""
@@ -134,7 +135,7 @@ class Running:
             self._result = result
         except BaseException as error:
             self._error = error
-        self._call = Call(_nothing)  # let go of what it was given
+        self._call = Call(_load)  # let go of what it was given
         self._ended.set()
 
     def _made(self) -> Any:
@@ -176,5 +177,7 @@ def _sentence(ending: Ending) -> str:
     )
 
 
-def _nothing() -> None:
+def _load(*modules: str) -> None:
     """What a process does to be there."""
+    for name in modules:
+        import_module(name)

@@ -14,7 +14,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import minimize
 
 from ..util.errors import VolfrepError
 from ..util.types import Floats
@@ -384,6 +383,8 @@ def cheapest(
         low: (n,) bounds of this step, mm.
         high: (n,) mm.
     """
+    from scipy.optimize import minimize  # slow to load, and the window loads this module
+
     helps = np.maximum(-changes, 0.0) * radii[:, None] / _POWER
     hurts = np.maximum(changes, 0.0)
     scale = float(cost @ radii)

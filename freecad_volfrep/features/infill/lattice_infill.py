@@ -35,6 +35,7 @@ from .values import specification_of
 if TYPE_CHECKING:
     import Mesh
 
+    from freecad_volfrep.bridge.solids import SolidReader
     from volfrep import LatticeSpec
     from volfrep.design.forecast import Forecast
     from volfrep.jobs.pipeline import FilledMesh
@@ -218,6 +219,10 @@ class LatticeInfill:
         require_engine()
         spec, solid = self.read(obj)
         return check_solid(solid, obj.Base.Label), spec, self._cache
+
+    def take_reader(self, reader: SolidReader) -> None:
+        """Read the base by what has read it already."""
+        self._reader = reader
 
     def onDocumentRestored(self, obj: App.DocumentObject) -> None:  # noqa: N802
         """Bring an object of an older file up to the present table of properties.

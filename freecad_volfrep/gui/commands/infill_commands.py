@@ -70,8 +70,11 @@ def open_panel(doc: App.Document, base: App.DocumentObject) -> None:
 
 def make_suitable_infill(doc: App.Document, base: App.DocumentObject) -> App.DocumentObject:
     """An infill with the preferred values, and sizes that suit the base."""
-    low, high = SolidReader().read(base, parent_placement(base)).bounds
-    return make_lattice_infill(doc, base, **preferred_values(tuple(high - low)))
+    reader = SolidReader()
+    low, high = reader.read(base, parent_placement(base)).bounds
+    obj = make_lattice_infill(doc, base, **preferred_values(tuple(high - low)))
+    obj.Proxy.take_reader(reader)
+    return obj
 
 
 def edit_infill(obj: App.DocumentObject) -> None:

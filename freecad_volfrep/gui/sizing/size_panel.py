@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from importlib import import_module
 from typing import Any
 
 import FreeCAD as App
 import FreeCADGui as Gui
 
+from freecad_volfrep.engines import engines
 from freecad_volfrep.features.infill.materials import process_of
 from freecad_volfrep.features.sizing.sizing import (
     GOALS,
@@ -41,6 +43,8 @@ from .loads_box import LoadsBox
 
 #: The table of steps is brought up to date so often while they are made, ms.
 TICK = 150
+#: What is loaded before it is asked for.
+SIZING = "volfrep.jobs.sizing"
 #: Of the list of tables, px: their names are long.
 _TABLE_WIDTH = 180
 #: Standard deviations that may be asked for, at most.
@@ -157,6 +161,7 @@ class SizePanel:
         self._show_fields()
         # Once FreeCAD has put the panel up.
         QtCore.QTimer.singleShot(0, self._begin_loads)
+        QtCore.QTimer.singleShot(0, _get_ready)
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""
@@ -167,7 +172,7 @@ class SizePanel:
 
         Stays open without any.
         """
-        if self._outcome is None and not self.size():
+        if self._outcome is None and not self._find():
             return False
         outcome = self._outcome
         assert outcome is not None
@@ -207,7 +212,15 @@ class SizePanel:
         return True
 
     def size(self) -> bool:
-        """Size the struts now; a cancel keeps the best design so far. Says what is wrong."""
+        """Size the struts now, and show them. Says what is wrong."""
+        if not self._find():
+            return False
+        assert self._outcome is not None
+        open_struts(self._obj, self._outcome.states, self._outcome.printed)
+        return True
+
+    def _find(self) -> bool:
+        """Size the struts; a cancel keeps the best design so far. Says what is wrong."""
         self._loads.end_picking()
         self._say("")
         self._steps.clear()
@@ -242,7 +255,6 @@ class SizePanel:
             self._show_steps()
         self._plot.setEnabled(True)
         self._say(self._outcome.summary(), wrong=not self._outcome.holds)
-        open_struts(self._obj, self._outcome.states, self._outcome.printed)
         return True
 
     def _show_plot(self) -> None:
@@ -472,6 +484,12 @@ class SizePanel:
         self._is_open = False
         self._timer.stop()
         close_panel(self._doc)
+
+
+def _get_ready() -> None:
+    """Load what sizing needs, here and in the process that will make it, while loads are picked."""
+    engines().warm(SIZING)
+    import_module(SIZING)
 
 
 def _step_in_words(step: tuple[str, ...]) -> tuple[str, ...]:

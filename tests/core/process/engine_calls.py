@@ -24,6 +24,11 @@ def same(value: Any) -> Any:
     return value
 
 
+def has_imported(module: str) -> bool:
+    """Whether this process has a module."""
+    return module in sys.modules
+
+
 def note(cache: StageCache, word: str) -> list[str]:
     """The words that were noted in a cache so far."""
     words: list[str] = cache.run("words", list).value

@@ -394,3 +394,9 @@ def begun(running: Running) -> None:
     """Wait until the call says that it has begun."""
     while running.state[1] != "begun":
         assert not running.wait(0.01), running.result()
+
+
+def test_a_process_that_is_warm_has_its_modules(engine):
+    assert not made(engine, calls.has_imported, "wave")
+    engine.warm("wave").result()
+    assert made(engine, calls.has_imported, "wave")

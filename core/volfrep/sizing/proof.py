@@ -320,7 +320,8 @@ def doubts(figures: Mapping[str, Any], final: Analysis, names: Sequence[str]) ->
                 f"{1.0 - figures['struts_compared']:.0%} of the struts' ends"
             )
         elif not abs(stress_ratio - 1.0) <= AGREES:
-            result.append(f"its largest stress is {stress_ratio:.3g} times the design's own")
+            less = ", so that the part may be heavier than it need be" * (stress_ratio < 1.0)
+            result.append(f"its largest stress is {stress_ratio:.3g} times the design's own{less}")
     if "frequency" in final.uses and not abs(figures["lowest_frequency"] - 1.0) <= AGREES:
         times = figures["lowest_frequency"]
         result.append(f"its lowest frequency is {times:.3g} times the design's own")

@@ -39,9 +39,6 @@ class WedgeMesh:
         of: (e,) the triangle that each wedge is a piece of.
         outer: (n,) the node at each vertex of the outer surface; -1 where none is used.
         inner: (n,) the same of the inner one.
-        edges: (m, 2) vertices of the surface (those of the cut, too) between which there is a
-            node on the outer surface.
-        middles: (m,) that node.
         ring: (r, 2) a vertex with a pad, and a node on the pad's inner border.
     """
 
@@ -52,9 +49,15 @@ class WedgeMesh:
     of: Ints
     outer: Ints
     inner: Ints
-    edges: Ints
-    middles: Ints
     ring: Ints
+
+    def on_outside(self) -> tuple[Ints, Ints, Floats]:
+        """(k,) nodes on the outer surface, (k, 3) the vertices of a triangle each is in, and (k, 3)
+        their shares.
+        """
+        nodes, at = np.unique(self.elements[:, [3, 4, 5, 9, 10, 11]], return_index=True)
+        rows = self.triangles[self.of[at // 6]]
+        return nodes, rows, barycentric(self.nodes[self.outer[rows]], self.nodes[nodes])
 
     def spread(self, loads: Floats) -> Floats:
         """(k, 3) N on nodes, of (n, 3) on vertices of the surface: over its triangles.
@@ -196,8 +199,6 @@ def wedge_mesh(outer: Floats, inner: Floats, triangles: Ints, pads: Floats) -> W
         of,
         np.where(place[:own] >= 0, place[:own] + count, -1),
         place[:own],
-        used[sides],
-        3 * count + len(sides) + np.arange(len(sides)),
         np.stack([ring[:, 0], place[ring[:, 1]]], axis=1),
     )
 

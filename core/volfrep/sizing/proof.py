@@ -40,6 +40,8 @@ _THIN = 0.1
 HELD_TOGETHER = 100.0
 #: Struts count as more stressed in CalculiX where they have this share of the largest stress there.
 TELLING = 0.5
+#: A node has no part of a vertex whose share in it is smaller.
+_NOT_BESIDE = 1e-6
 #: A limit that CalculiX finds used more than this makes the design a little thicker.
 PROVED = 1.003
 #: A design is confirmed where nothing that both solutions say differs by more than this part.
@@ -426,14 +428,13 @@ def _on_solid(skin: SolidSkin, first: int, fixed: Bools, loads: Floats, prescrib
     pair = np.cross(loads[above, 3:], arm) / (arm**2).sum(axis=1)[:, None]
     loads[above, :3] += pair
     loads[below, :3] -= pair
-    # Between two vertices that are held the skin is, too.
-    row = np.full(mesh.edges.max() + 1, -1, np.int64)
-    row[used] = above
-    ends = row[mesh.edges]
-    both = (ends >= 0).all(axis=1)
-    middle, ends = first + mesh.middles[both], ends[both]
-    fixed[middle] = fixed[ends].all(axis=1)
-    prescribed[middle] = prescribed[ends].mean(axis=1) * fixed[middle]
+    # Between vertices that are held the skin is, too, where pads cut it as well.
+    held, moved = np.zeros((len(mesh.outer), 3), bool), np.zeros((len(mesh.outer), 3))
+    held[used], moved[used] = fixed[above, :3], prescribed[above, :3]
+    nodes, rows, shares = mesh.on_outside()
+    between = (held[rows] | (shares < _NOT_BESIDE)[:, :, None]).all(axis=1)
+    fixed[first + nodes, :3] = between
+    prescribed[first + nodes, :3] = np.einsum("kc,kci->ki", shares, moved[rows]) * between
     fixed[first:, 3:] = False
     loads[first:, 3:] = 0.0
 

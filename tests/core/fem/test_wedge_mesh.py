@@ -86,3 +86,14 @@ def test_where_the_inner_side_would_turn_over_it_goes_as_its_neighbours_do():
     assert len(mesh.elements) == len(triangles)
     a, b, c = mesh.nodes[mesh.elements[:, :3]].swapaxes(0, 1)
     assert (np.cross(b - a, c - a)[:, 2] > 0.0).all()
+
+
+@pytest.mark.parametrize("pads", [None, padded()])
+def test_every_node_outside_lies_in_a_triangle_of_the_surface(pads):
+    above, below, triangles, pads = slab(pads, lifted=0.5)
+    mesh = wedge_mesh(above, below, triangles, pads)
+    nodes, rows, shares = mesh.on_outside()
+    assert set(nodes) == set(mesh.elements[:, [3, 4, 5, 9, 10, 11]].ravel())
+    assert shares.sum(axis=1) == pytest.approx(1.0)
+    assert shares.min() > -1e-9
+    assert np.einsum("kc,kci->ki", shares, above[rows]) == pytest.approx(mesh.nodes[nodes])

@@ -152,6 +152,12 @@ SENTENCES = marked(
     "{share} % of the struts' length, {area}",
     "{count}, holding {volume} mm3",
     "{classes} % from 0 to 90 degrees, by {step}",
+    "band {number}: {mean} % of {volume} mm3, told as {told} %",
+    "band {number}: {mean} % of {volume} mm3, told as {told} % (narrow: joined ends of lines make "
+    "up the rest)",
+    "solid: {volume} mm3 of walls and solid layers",
+    "filament: {volume} mm3, {mass} g",
+    "as even: {density} % everywhere would take the same",
     # Loads and Sizing, Design Study.
     "No load case is chosen: tick at least one.",
     "Least mass needs a limit: of stress, displacement, buckling, frequency.",

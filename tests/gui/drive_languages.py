@@ -125,6 +125,12 @@ SENTENCES = {
 LINES = {"Italian": " celle su 192, ", "German": " von 192 Zellen, ", "English": " of 192 cells, "}
 
 
+#: Of a slicer infill: how a line of the report view begins, and the object's name.
+BANDS = {
+    "Italian": ("pieno: ", "Block riempimento"),
+    "German": ("massiv: ", "Block Füllung"),
+    "English": ("solid: ", "Block infill"),
+}
 #: Of what a print check finds.
 FOUND = {
     "Italian": (("asta più sottile", "2 mm (limite 2 mm)"), ("massa", "11,99 g")),
@@ -196,6 +202,9 @@ def for_the_printer(language):
     area = next(a for a in Gui.getMainWindow().findChildren(QtGui.QScrollArea)
                 if a.isAncestorOf(form))  # fmt: skip
     area.ensureWidgetVisible(table)
+    line, label = BANDS[language]
+    check(f"{language}: and told", any(one.startswith(line) for one in said().splitlines()))
+    check(f"{language}: their object's name", any(one.Label == label for one in doc.Objects))
     picture(f"language_{language}_5_slicer_end")
     leave(QtGui.QDialogButtonBox.Cancel)
     obj = make_lattice_infill(doc, doc.Block, CellSize=10, Resolution=8)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import FreeCAD as App
 
 from freecad_volfrep.features.jobs.progress import job_title, run_job
+from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ def add_coupons(infill: App.DocumentObject, coupons: Sequence[Coupon]) -> App.Do
 
     doc, box = infill.Document, infill.Mesh.BoundBox
     group = doc.addObject("App::DocumentObjectGroup", "Coupons")
-    group.Label = f"{infill.Label} coupons"
+    group.Label = translate("VolfrepLabels", "{label} coupons").format(label=infill.Label)
     x, front = (box.XMin, box.YMin) if infill.Mesh.CountFacets else (0.0, 0.0)
     for coupon in coupons:
         low, high = coupon.mesh.bounds

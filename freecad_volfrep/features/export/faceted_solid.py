@@ -13,6 +13,7 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.infill.freshness import tell_stale
 from freecad_volfrep.features.jobs.progress import job_title, run_job
+from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
 from volfrep.util.files import check_writable, not_written
 
@@ -129,7 +130,7 @@ def shape_object(
     """
     faces = shape.countElement("Face")
     solid = doc.addObject("Part::Feature", f"{obj.Name}Solid")
-    solid.Label = f"{obj.Label} solid"
+    solid.Label = translate("VolfrepLabels", "{label} solid").format(label=obj.Label)
     if faces * seconds > LONGEST_DRAWING:
         solid.Visibility = False  # before it has anything to draw
         App.Console.PrintWarning(

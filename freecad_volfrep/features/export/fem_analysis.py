@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from freecad_volfrep.features.infill.materials import for_solver
 from freecad_volfrep.features.jobs.progress import all_or_nothing, go_through, job_title
+from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
 
 from .exact import inputs_of, warn
@@ -201,7 +202,7 @@ def _analysis(doc: App.Document, obj: App.DocumentObject) -> App.DocumentObject:
     import ObjectsFem
 
     analysis = ObjectsFem.makeAnalysis(doc, f"{obj.Name}Analysis")
-    analysis.Label = f"{obj.Label} analysis"
+    analysis.Label = translate("VolfrepLabels", "{label} analysis").format(label=obj.Label)
     # FreeCAD 1.1 spells it anew.
     make = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None)
     make = make or ObjectsFem.makeSolverCalculixCcxTools

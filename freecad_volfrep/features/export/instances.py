@@ -12,6 +12,7 @@ import FreeCAD as App
 import numpy as np
 
 from freecad_volfrep.features.jobs.progress import all_or_nothing, go_through, job_title, run_job
+from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
 from volfrep.util.files import replacing
 
@@ -74,7 +75,7 @@ def _group_steps(
 
     kinds = len(joints.places)
     group = doc.addObject("App::Part", f"{obj.Name}Instances")
-    group.Label = f"{obj.Label} instances"
+    group.Label = translate("VolfrepLabels", "{label} instances").format(label=obj.Label)
     group.Placement = place_in_document(obj)
     group.Visibility = False  # else the view would be drawn anew with every part
     for number, (shape, places) in enumerate(zip(shapes, joints.places, strict=False), 1):

@@ -21,8 +21,8 @@ from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.saved_names import saved_module
-from freecad_volfrep.sentences import report_line
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP
+from freecad_volfrep.sentences import localise, report_line
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import Cancelled, VolfrepError
 
 from .input_files import refuse_inputs
@@ -235,7 +235,8 @@ def make_slicer_infill(
     obj = doc.addObject("Mesh::FeaturePython", "SlicerInfill")
     try:
         SlicerInfill(obj)
-        obj.Base, obj.Label = base, f"{base.Label} infill"
+        obj.Base = base
+        obj.Label = translate("VolfrepLabels", "{label} infill").format(label=base.Label)
         for name, value in properties.items():
             try:
                 set_value(obj, name, value)
@@ -389,5 +390,5 @@ def _write_results(obj: App.DocumentObject, made: Bands) -> None:
     obj.SolidVolume, obj.FilamentVolume = made.solid_volume, made.filament
     set_value(obj, "Mass", made.mass)
     obj.EvenDensity = made.mean_density
-    said = "; ".join(f"{name}: {value}" for name, value in made.rows())
-    App.Console.PrintMessage(report_line(obj.Label, said))
+    said = "\n".join(f"{name}: {value}" for name, value in made.rows())
+    App.Console.PrintMessage(f"VOLFREP, {obj.Label}:\n{localise(said)}\n")

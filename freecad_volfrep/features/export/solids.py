@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import FreeCAD as App
 
 from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
 
 from .exact import checked_ingredients, exact_shape, warn
@@ -68,7 +69,7 @@ def make_axes(doc: App.Document, obj: App.DocumentObject) -> App.DocumentObject:
     frame = axes_of(obj).wireframe
     ends = frame.nodes[frame.struts].tolist()
     axes = doc.addObject("Part::Feature", f"{obj.Name}Axes")
-    axes.Label = f"{obj.Label} axes"
+    axes.Label = translate("VolfrepLabels", "{label} axes").format(label=obj.Label)
     axes.Shape = Part.makeCompound([Part.makeLine(App.Vector(*a), App.Vector(*b)) for a, b in ends])
     axes.purgeTouched()
     return axes

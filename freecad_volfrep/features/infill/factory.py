@@ -11,6 +11,7 @@ import FreeCAD as App
 from freecad_volfrep import preferences
 from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.quantities import set_value
+from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
 
 from .lattice_infill import LatticeInfill
@@ -54,7 +55,7 @@ def make_lattice_infill(
 
             base = resolve_base(base)
             obj.Base = base
-            obj.Label = f"{base.Label} lattice"
+            obj.Label = translate("VolfrepLabels", "{label} lattice").format(label=base.Label)
         for name, value in properties.items():
             _set(obj, name, value)
     except VolfrepError:

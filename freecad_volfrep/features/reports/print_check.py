@@ -17,6 +17,7 @@ from freecad_volfrep.features.properties.property_table import Property, add_mis
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.saved_names import saved_module
 from freecad_volfrep.sentences import report_line
+from freecad_volfrep.translation import translate
 from volfrep.util.errors import Cancelled, VolfrepError
 
 if TYPE_CHECKING:
@@ -172,7 +173,7 @@ def make_print_check(
     obj = doc.addObject("Mesh::FeaturePython", "PrintCheck")
     PrintCheck(obj)
     obj.Infill = infill
-    obj.Label = f"{infill.Label} print check"
+    obj.Label = translate("VolfrepLabels", "{label} print check").format(label=infill.Label)
     obj.Process = name
     obj.BuildDirection = App.Vector(*build_direction)
     attach_view(obj)

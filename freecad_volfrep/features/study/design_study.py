@@ -128,7 +128,7 @@ def make_design_study(
     obj = doc.addObject("App::FeaturePython", "DesignStudy")
     DesignStudy(obj)
     obj.Infill = infill
-    obj.Label = f"{infill.Label} study"
+    obj.Label = translate("VolfrepLabels", "{label} study").format(label=infill.Label)
     obj.Vary = lines or suggested(infill)
     obj.Status = NOT_RUN
     attach_view(obj)

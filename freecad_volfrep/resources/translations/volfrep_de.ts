@@ -2733,6 +2733,45 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     </message>
   </context>
   <context>
+    <name>VolfrepLabels</name>
+    <message>
+      <source>{label} analysis</source>
+      <translation>{label} Analyse</translation>
+    </message>
+    <message>
+      <source>{label} axes</source>
+      <translation>{label} Achsen</translation>
+    </message>
+    <message>
+      <source>{label} coupons</source>
+      <translation>{label} Proben</translation>
+    </message>
+    <message>
+      <source>{label} infill</source>
+      <translation>{label} Füllung</translation>
+    </message>
+    <message>
+      <source>{label} instances</source>
+      <translation>{label} Verknüpfungen</translation>
+    </message>
+    <message>
+      <source>{label} lattice</source>
+      <translation>{label} Gitter</translation>
+    </message>
+    <message>
+      <source>{label} print check</source>
+      <translation>{label} Druckprüfung</translation>
+    </message>
+    <message>
+      <source>{label} solid</source>
+      <translation>{label} Volumenkörper</translation>
+    </message>
+    <message>
+      <source>{label} study</source>
+      <translation>{label} Studie</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepLoads</name>
     <message>
       <source>Another case, held as this one is</source>
@@ -4099,6 +4138,18 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Wände von {thickness} mm sind zu dick für eine Zelle von {size} mm: die Dicke verringern oder die Zelle vergrößern.</translation>
     </message>
     <message>
+      <source>as even: {density} % everywhere would take the same</source>
+      <translation>gleichmäßig: {density} % überall bräuchten gleich viel</translation>
+    </message>
+    <message>
+      <source>band {number}: {mean} % of {volume} mm3, told as {told} %</source>
+      <translation>Band {number}: {mean} % von {volume} mm3, genannt als {told} %</translation>
+    </message>
+    <message>
+      <source>band {number}: {mean} % of {volume} mm3, told as {told} % (narrow: joined ends of lines make up the rest)</source>
+      <translation>Band {number}: {mean} % von {volume} mm3, genannt als {told} % (schmal: verbundene Linienenden ergeben den Rest)</translation>
+    </message>
+    <message>
       <source>below {angle} degrees</source>
       <translation>unter {angle} Grad</translation>
     </message>
@@ -4109,6 +4160,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>closed voids</source>
       <translation>geschlossene Hohlräume</translation>
+    </message>
+    <message>
+      <source>filament: {volume} mm3, {mass} g</source>
+      <translation>Filament: {volume} mm3, {mass} g</translation>
     </message>
     <message>
       <source>findings</source>
@@ -4157,6 +4212,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>process</source>
       <translation>Verfahren</translation>
+    </message>
+    <message>
+      <source>solid: {volume} mm3 of walls and solid layers</source>
+      <translation>massiv: {volume} mm3 Wände und volle Schichten</translation>
     </message>
     <message>
       <source>surface</source>

@@ -2733,6 +2733,45 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     </message>
   </context>
   <context>
+    <name>VolfrepLabels</name>
+    <message>
+      <source>{label} analysis</source>
+      <translation>{label} analisi</translation>
+    </message>
+    <message>
+      <source>{label} axes</source>
+      <translation>{label} assi</translation>
+    </message>
+    <message>
+      <source>{label} coupons</source>
+      <translation>{label} provini</translation>
+    </message>
+    <message>
+      <source>{label} infill</source>
+      <translation>{label} riempimento</translation>
+    </message>
+    <message>
+      <source>{label} instances</source>
+      <translation>{label} istanze</translation>
+    </message>
+    <message>
+      <source>{label} lattice</source>
+      <translation>{label} reticolo</translation>
+    </message>
+    <message>
+      <source>{label} print check</source>
+      <translation>{label} controllo di stampa</translation>
+    </message>
+    <message>
+      <source>{label} solid</source>
+      <translation>{label} solido</translation>
+    </message>
+    <message>
+      <source>{label} study</source>
+      <translation>{label} studio</translation>
+    </message>
+  </context>
+  <context>
     <name>VolfrepLoads</name>
     <message>
       <source>Another case, held as this one is</source>
@@ -4099,6 +4138,18 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Pareti di {thickness} mm sono troppo spesse per una cella di {size} mm: ridurre lo spessore o ingrandire la cella.</translation>
     </message>
     <message>
+      <source>as even: {density} % everywhere would take the same</source>
+      <translation>uniforme: {density} % ovunque ne richiederebbe altrettanto</translation>
+    </message>
+    <message>
+      <source>band {number}: {mean} % of {volume} mm3, told as {told} %</source>
+      <translation>banda {number}: {mean} % di {volume} mm3, comunicata come {told} %</translation>
+    </message>
+    <message>
+      <source>band {number}: {mean} % of {volume} mm3, told as {told} % (narrow: joined ends of lines make up the rest)</source>
+      <translation>banda {number}: {mean} % di {volume} mm3, comunicata come {told} % (stretta: le estremità unite delle linee fanno il resto)</translation>
+    </message>
+    <message>
       <source>below {angle} degrees</source>
       <translation>sotto {angle} gradi</translation>
     </message>
@@ -4109,6 +4160,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>closed voids</source>
       <translation>vuoti chiusi</translation>
+    </message>
+    <message>
+      <source>filament: {volume} mm3, {mass} g</source>
+      <translation>filamento: {volume} mm3, {mass} g</translation>
     </message>
     <message>
       <source>findings</source>
@@ -4157,6 +4212,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>process</source>
       <translation>processo</translation>
+    </message>
+    <message>
+      <source>solid: {volume} mm3 of walls and solid layers</source>
+      <translation>pieno: {volume} mm3 di pareti e strati pieni</translation>
     </message>
     <message>
       <source>surface</source>

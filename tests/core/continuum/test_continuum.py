@@ -140,6 +140,15 @@ def test_whole_blocks_of_six_cells_are_pulled_as_beams_are(cell):
     assert found == pytest.approx(1, abs=0.05)
 
 
+@pytest.mark.parametrize("count", [3, pytest.param(6, marks=pytest.mark.slow)])
+def test_whole_blocks_of_box_are_pushed_sideways_as_their_beams_are(count):
+    """Its bricks are cells: in smaller ones faces shear by layers that no strut can follow."""
+    spec = LatticeSpec("Box", strut_radius=0.8, **WHOLE)
+    solid = block(20 * count, 10 * count, 10 * count)
+    found = compared(solid, spec, moved(20 * count, (0.0, 0.0, 0.1)))
+    assert found == pytest.approx(1, abs=0.03)
+
+
 @pytest.mark.costly
 def test_gradings_turns_and_maps_are_followed():
     solid, case = block(60, 20, 20), loaded(60, (100.0, 0, 0))

@@ -83,7 +83,7 @@ def test_whole_cells_with_no_strut_in_their_faces_are_solved_as_well():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("cell", ["Octet", "CVC", "FCC", "BCC"])
+@pytest.mark.parametrize("cell", ["Octet", "CVC", "FCC", "BCC", "Box"])
 def test_whole_blocks_of_six_cells_swing_as_their_beams_do(cell):
     """Beams weigh joints as often as struts meet there: at the mass of the file."""
     spec, solid = LatticeSpec(cell, strut_radius=0.8, **WHOLE), block(LENGTH, WIDE, WIDE)

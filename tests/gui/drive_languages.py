@@ -8,6 +8,9 @@ import FreeCAD as App
 import FreeCADGui as Gui
 from PySide import QtGui
 
+from freecad_volfrep.gui.study.study_plot import COLOURS
+from freecad_volfrep.gui.widgets.plot_colours import plot_colours
+
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import new_infill
 from driving import (
@@ -331,6 +334,10 @@ def look_at_the_dark():
     picture("dark_1_panel")
     light = lightness("dark_1_panel", panel())
     check("dark: the panel is dark", light < 0.4, light)
+    drawn_in = plot_colours(panel())
+    paper = drawn_in.paper.lightnessF()
+    dim = [name for name in COLOURS if abs(drawn_in.seen(name).lightnessF() - paper) < 0.2]
+    check("dark: a plot's points are seen", dim == [], dim)
     obj.ShellThickness = 15
     panel().findChild(QtGui.QWidget, "Preview").click()
     settle()

@@ -106,7 +106,8 @@ class StudyPlot(QtWidgets.QWidget):
         self._draw_axes(painter)
         words = list(dict.fromkeys(row.get(self._colour) for row in self._rows))
         for row in self._rows:
-            colour = QtGui.QColor(COLOURS[words.index(row.get(self._colour)) % len(COLOURS)])
+            number = words.index(row.get(self._colour))
+            colour = self._drawn_in.seen(COLOURS[number % len(COLOURS)])
             place = self.place_of(row)
             painter.setPen(QtCore.Qt.NoPen)
             painter.setBrush(colour)
@@ -165,7 +166,7 @@ class StudyPlot(QtWidgets.QWidget):
         for line, word in enumerate(words[: len(COLOURS)]):
             y = MARGINS[1] + 6 + 13 * line
             painter.setPen(QtCore.Qt.NoPen)
-            painter.setBrush(QtGui.QColor(COLOURS[line]))
+            painter.setBrush(self._drawn_in.seen(COLOURS[line]))
             painter.drawEllipse(QtCore.QPointF(MARGINS[0] + 9, y + 4), 3.5, 3.5)
             painter.setPen(self._drawn_in.ink)
             painter.drawText(QtCore.QPointF(MARGINS[0] + 17, y + 8), str(word))

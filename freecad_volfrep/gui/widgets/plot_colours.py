@@ -9,6 +9,8 @@ from typing import Any
 
 #: Shares of the ink in lines that are behind others.
 _GRID, _FAINT = 0.15, 0.35
+#: Lightness by which curves are seen on the paper; else so much of the ink is in them.
+_APART, _NEARER = 0.25, 0.5
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,13 @@ class PlotColours:
     grid: Any
     faint: Any
 
+    def seen(self, name: str) -> Any:
+        """A curve's colour by its name, nearer to the ink where the paper is about as dark."""
+        colour = type(self.ink)(name)
+        if abs(colour.lightnessF() - self.paper.lightnessF()) >= _APART:
+            return colour
+        return _mixed(colour, self.ink, _NEARER)
+
 
 def plot_colours(widget: Any) -> PlotColours:
     """The colours of the window that a widget is in.
@@ -39,8 +48,9 @@ def plot_colours(widget: Any) -> PlotColours:
 
 
 def in_theme(svg: str, widget: Any) -> str:
-    """A black and white plot of the engine in a widget's colours; what is coloured stays."""
+    """A plot of the engine in a widget's colours; its curves' own stay where they are seen."""
     colours = plot_colours(widget)
+    svg = re.sub(r"#[0-9a-f]{6}", lambda found: colours.seen(found[0]).name(), svg)
     paper, ink, faint = (one.name() for one in (colours.paper, colours.ink, colours.faint))
     svg = svg.replace("<svg ", f'<svg fill="{ink}" ', 1).replace('fill="white"', f'fill="{paper}"')
     return re.sub(r'="#999"', f'="{faint}"', re.sub(r'="#555"', f'="{ink}"', svg))

@@ -54,12 +54,12 @@ def without_slivers(
 ) -> tuple[TriangleMesh, Bools, Ints]:
     """As `remove_slivers`, with (m,) which triangles were not there, or elsewhere.
 
-    And which ones the first triangles were: all others are last. With `among` only so many of the
-    first are looked at.
+    And (m,) which one each triangle was, -1 for these. With `among` only so many of the first are
+    looked at.
     """
     thin = _slivers(mesh.vertices, mesh.triangles[:among], tolerance)
-    result, new, stayed = _rebuilt(mesh, thin, tolerance)
-    return mesh if result is mesh else compact(result, owned=True), new, stayed
+    result, new, was = _rebuilt(mesh, thin, tolerance)
+    return mesh if result is mesh else compact(result, owned=True), new, was
 
 
 def without_slivers_at(
@@ -84,8 +84,7 @@ def without_inner_slivers(
 
     Returns:
         the mesh with all its vertices, some of them out of use, (m,) bool which of its triangles
-        were not there or elsewhere, and which ones its first triangles were; the others were not
-        there.
+        were not there or elsewhere, and (m,) which one each was, -1 for these.
     """
     thin = _slivers(mesh.vertices, mesh.triangles, tolerance)
     at_rim = vertices_of(rim, len(mesh.vertices))
@@ -102,14 +101,16 @@ def _rebuilt(mesh: TriangleMesh, thin: Ints, tolerance: float) -> tuple[Triangle
     if not len(thin):
         return mesh, np.zeros(len(mesh.triangles), bool), np.arange(len(mesh.triangles))
     points, triangles, old = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
-    new = np.zeros(len(triangles), bool)
     stayed = np.delete(np.arange(len(mesh.triangles)), old)
     rebuilt = triangles[len(stayed) :]
     moved = np.zeros(len(points), bool)
     moved[np.flatnonzero((points != mesh.vertices).ravel()) // 3] = True
-    is_old = np.isin(_names(rebuilt), _names(mesh.triangles[old])) & ~touching(moved, rebuilt)
-    new[len(stayed) :] = ~is_old
-    return TriangleMesh(points, triangles), new, stayed
+    name, names = _names(rebuilt), _names(mesh.triangles[old])
+    order = np.argsort(names)
+    place = np.minimum(np.searchsorted(names, name, sorter=order), len(old) - 1)
+    is_old = (names[order[place]] == name) & ~touching(moved, rebuilt)
+    was = np.concatenate([stayed, np.where(is_old, old[order[place]], -1)])
+    return TriangleMesh(points, triangles), was < 0, was
 
 
 def _names(triangles: NDArray[np.int32]) -> NDArray[np.uint64]:

@@ -109,6 +109,17 @@ class Looks:
         """The same, with so many triangles before and after them of which nothing is known."""
         return Looks(np.pad(self.marks, (before, after)), self.step)
 
+    def rebuilt(self, was: Ints, beside: Ints) -> Looks:
+        """The same, after some went and others came.
+
+        Args:
+            was: (m,) which one each triangle was, -1 for new ones.
+            beside: those that touch new ones, at whose edges the surface may turn otherwise now.
+        """
+        marks = np.where(was < 0, np.uint8(0), self.marks[was])
+        marks[beside] &= np.uint8(APART)
+        return Looks(marks, self.step)
+
     @property
     def apart(self) -> Bools:
         """(m,) bool, triangles of which no two cross each other in a file."""

@@ -18,7 +18,7 @@ from ..mesh.float32_repair import (
 )
 from ..mesh.precision import merging_vertices
 from ..mesh.quality import Quality, quality_after_moves, refuse_no_solid
-from ..mesh.topology import moved_vertices, touching
+from ..mesh.topology import moved_vertices, touching, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.resolve_crossings import Folds, folds_of, resolve_fold_crossings
 from ..spatial.self_intersection import about, crossing_triangles
@@ -53,14 +53,15 @@ def tidy(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimmed
         precision: `shortest_edge` of the part, mm.
         monitor: for cancel.
     """
-    smooth, new, stayed = without_slivers(surface.mesh, precision)
+    smooth, new, was = without_slivers(surface.mesh, precision)
     release_memory()
-    looks = surface.looks and surface.looks.of(stayed).beside(0, len(new) - len(stayed))
-    result = surface.on(smooth, looks)
     if not new.any():
-        return result
+        return surface.on(smooth, surface.looks and surface.looks.of(was))
     # What lies about the new triangles is little, and is all that is looked at.
     rows = np.flatnonzero(new | about(smooth, new))
+    fresh = vertices_of(smooth.triangles[new], len(smooth.vertices))
+    beside = rows[touching(fresh, smooth.triangles[rows])]
+    result = surface.on(smooth, surface.looks and surface.looks.rebuilt(was, beside))
     part, among = TriangleMesh(smooth.vertices, smooth.triangles[rows]), new[rows]
     if surface.octants is not None:
         near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])

@@ -162,14 +162,14 @@ def _looked_at(piece: Piece, group: Group, monitor: Monitor) -> Piece:
 
 def _tidied(piece: Piece, precision: float, monitor: Monitor) -> Piece:
     """The piece without slivers where it meets no other one, if nothing crosses then."""
-    smooth, new, stayed = without_inner_slivers(piece.mesh, piece.rim, precision)
+    smooth, new, was = without_inner_slivers(piece.mesh, piece.rim, precision)
     if not new.any() or monitor.call(lambda: crossing_triangles(smooth, new, precision)).any():
         return piece
     # What was rebuilt counts as of the wall where all its corners were on it.
     at_boundary = np.zeros(len(smooth.vertices), bool)
-    at_boundary[smooth.triangles[: len(stayed)][piece.on_boundary[stayed]]] = True
-    on_boundary = at_boundary[smooth.triangles].all(axis=1)
-    on_boundary[: len(stayed)] = piece.on_boundary[stayed]
+    stayed = piece.on_boundary[was] & ~new
+    at_boundary[smooth.triangles[stayed]] = True
+    on_boundary = np.where(new, at_boundary[smooth.triangles].all(axis=1), stayed)
     return Piece(smooth, on_boundary, piece.rim, piece.work)
 
 

@@ -39,6 +39,9 @@ ZERO_BAND = 1.2345e-3
 CUBE = 8
 #: Distances are certain to this part of a cell.
 ROUNDING = 1e-9
+#: Nodes are taken at whole steps of this part of a cell: their mirror images are exact then, and
+#: octants that are alike are known to be, which rounding told apart.
+NODE_STEP = 2.0**-40
 #: Vertices lie at whole steps of an octant's edge over this, so that octants which share a vertex
 #: can give it the very same coordinates.
 STEPS = float(1 << 26)
@@ -77,7 +80,8 @@ def cell_copies(cell: UnitCell, offsets: Ints, mirror: int = 0) -> tuple[Floats,
         nodes (n, 3) float64, each of which carries a joint sphere, and struts (m, 2) of its rows.
     """
     reflect = np.array([mirror >> axis & 1 for axis in range(3)], bool)
-    local = np.where(reflect, 1.0 - cell.nodes, cell.nodes)
+    exact = np.round(cell.nodes / NODE_STEP) * NODE_STEP
+    local = np.where(reflect, 1.0 - exact, exact)
     nodes = (local[None] + np.asarray(offsets)[:, None, :]).reshape(-1, 3)
     struts = (cell.struts[None] + (np.arange(len(offsets)) * len(local))[:, None, None]).reshape(
         -1, 2

@@ -49,6 +49,14 @@ def test_an_octant_that_shares_a_mesh_has_the_border_it_would_have_alone(cell, r
         np.testing.assert_array_equal(together[key].solid_corners, alone.solid_corners)
 
 
+def test_octants_of_thirds_of_a_cell_are_shared_as_those_of_halves():
+    """1 - 0.791666666667 is not 0.208333333333 in binary: 15 were meshed, 6 times as long."""
+    monitor = Monitor()
+    keys = kinds_of(LIBRARY["Weaire-Phelan"], np.ones((2, 2, 2), bool))
+    mesh_octants(LIBRARY["Weaire-Phelan"], OctantSpec(10.0, 0.4, 0.0, 20), keys, monitor)
+    assert monitor.work["kinds of octants meshed"] <= 8
+
+
 @pytest.mark.costly
 def test_struts_that_show_keep_octants_apart():
     """With a fillet the hidden struts of a joint show: nothing is shared."""

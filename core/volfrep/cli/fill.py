@@ -221,23 +221,26 @@ def _block(given: argparse.Namespace) -> None:
                 {},
             )
         return
+    streamed = options.is_plain and bool(options.form.octants_by)
+
+    def expect(spec: LatticeSpec) -> None:
+        spec.kind.refuse_crossing()
+        if not options.quiet:
+            print(f"Expected: {forecast_block(spec, count, streamed=streamed)}.", flush=True)
+
+    tell = expect if meshed else None
     if options.spec.target is None:
         from ..jobs.kinds import lattice_kind
 
         block = lattice_kind(options.spec).block(count)
         before = {}
+        if tell is not None:
+            tell(options.spec)
     else:
         from ..jobs.targets import solve_block_target  # loads what fills parts
 
-        block = solve_block_target(options.spec, count, meshed=meshed)
+        block = solve_block_target(options.spec, count, meshed=meshed, tell=tell)
         before = {"target": time.perf_counter() - start}
-    spec = block.spec
-    streamed = options.is_plain and bool(options.form.octants_by)
-    if meshed:
-        spec.kind.refuse_crossing()
-        if not options.quiet:
-            expected = forecast_block(spec, count, streamed=streamed)
-            print(f"Expected: {expected}.", flush=True)
     with drawn(options.quiet) as progress:
         if not streamed:
             from ..output.sources import Block

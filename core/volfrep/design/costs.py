@@ -17,10 +17,20 @@ BYTES_PER_BEND = 5.5e4
 FACETS_PER_BEND = 9.0
 SECONDS_PER_NARROW = 4e-5
 BYTES_PER_NARROW = 2.2e3
-#: Fixed cost, s; per triangle of a part, s; and of a block, s.
+#: Fixed cost, s; per triangle of a part, s; of a block, s; and of one that is written as it is
+#: laid, of 35 to 307 million triangles 0.5 to 1.3e-7.
 SECONDS = 0.5
 SECONDS_PER_TRIANGLE = 4.5e-6
 SECONDS_PER_BLOCK_TRIANGLE = 4e-7
+SECONDS_PER_STREAMED_TRIANGLE = 9e-8
+#: A radius or thickness found for a target in a block takes so many seconds and bytes.
+SECONDS_FOR_TARGET = 0.6
+BYTES_FOR_TARGET = 1e8
+#: Seconds for each triangle of the octants that are meshed of a library cell (1.7 to 2.9e-4), and
+#: of one period of a TPMS; bytes for each of the latter's.
+SECONDS_PER_OCTANT_TRIANGLE = 2.6e-4
+SECONDS_PER_PERIOD_TRIANGLE = 8e-5
+BYTES_PER_PERIOD_TRIANGLE = 1300.0
 #: Facets of a graph's strut; and seconds for each of its triangles, most of them on one core. Of
 #: ten random graphs in a rod, a bracket, a box and a ball struts are within 7 %, triangles within
 #: 33 % (15 % but for one), processor seconds between 0.7 and 1.0.
@@ -44,8 +54,9 @@ BYTES_PER_CUT_TRIANGLE = 220.0
 #: Bytes of a triangle where only its vertices are kept, each in a place of its own: 18.7 million of
 #: a bracket take 0.4 to 0.6 GB more than those of equal cells.
 BYTES_PER_PLACED_TRIANGLE = 30.0
-#: Bytes that a cell of a block takes whose octants are written as they are laid.
-BYTES_PER_STREAMED_CELL = 5000
+#: Bytes that a cell of a block takes whose octants are written as they are laid: 216,000 took 2,020
+#: each.
+BYTES_PER_STREAMED_CELL = 2500
 #: Bytes of a triangle in a binary STL file.
 STL_BYTES = 50.0
 #: Bytes that a cell of the grid takes while cells and octants are told apart.

@@ -261,14 +261,18 @@ def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = 
     shares = spec.kind.strut_shares(0.5 * (1.0 + 1.0 / layers))
     triangles = cells * spec.kind.triangles_of_cell(shares)
     in_pieces = streamed and not spec.is_graded
-    share = 0.5 if in_pieces else 1.0
-    seconds = costs.SECONDS + costs.SECONDS_PER_BLOCK_TRIANGLE * triangles * share
-    seconds += spec.kind.meshing_seconds(float(np.minimum(layers, 2.0).prod()))
+    each = costs.SECONDS_PER_BLOCK_TRIANGLE
     if in_pieces:
-        per_triangle = costs.BYTES_PER_STREAMED_CELL * cells / triangles
-    else:
-        per_triangle = costs.BYTES_PER_BLOCK_TRIANGLE
-    return _forecast(cells, shares, triangles, per_triangle, seconds)
+        each = costs.SECONDS_PER_STREAMED_TRIANGLE
+    seconds = costs.SECONDS + each * triangles
+    seconds += spec.kind.meshing_seconds(float(np.minimum(layers, 2.0).prod()))
+    held = costs.BYTES_PER_STREAMED_CELL * cells
+    if not in_pieces:
+        held = costs.BYTES_PER_BLOCK_TRIANGLE * triangles
+    held = max(held, spec.kind.meshing_bytes)
+    if spec.target is not None:
+        seconds, held = seconds + costs.SECONDS_FOR_TARGET, held + costs.BYTES_FOR_TARGET
+    return _forecast(cells, shares, triangles, held / triangles, seconds)
 
 
 def expected_triangles(spec: LatticeSpec, volume: float) -> float:

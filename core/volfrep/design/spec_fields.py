@@ -299,6 +299,11 @@ class Kind(ABC):
         """
         return 0.0
 
+    @property
+    def meshing_bytes(self) -> float:
+        """Memory that meshing octants takes, bytes; 0 where that is next to nothing."""
+        return 0.0
+
     def refuse_crossing(self) -> None:  # noqa: B027  most kinds have none
         """Refuse octants that would take too long to mesh.
 

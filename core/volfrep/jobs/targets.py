@@ -10,7 +10,7 @@ with what it missed by.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from functools import partial
 
@@ -92,6 +92,7 @@ def solve_block_target(
     *,
     progress: ProgressCallback | None = None,
     meshed: bool = True,
+    tell: Callable[[LatticeSpec], None] | None = None,
 ) -> BlockLattice:
     """A block with the radius of its target, as it was measured last; see `solve_target`.
 
@@ -101,6 +102,7 @@ def solve_block_target(
         progress: called with the fraction done and the stage; returning False cancels.
         meshed: whether its octants, or the mesh of a graded block, are made and measured;
             otherwise the radius is the first one, as for beams.
+        tell: called with a radius each time before that is meshed.
 
     Raises:
         VolfrepError: as `solve_target`.
@@ -111,11 +113,17 @@ def solve_block_target(
     if target is None:
         return block
     if target.aim == "stiffness":
-        return lattice_kind(kind.stiffened(target)).block(count)
+        stiffened = kind.stiffened(target)
+        if tell is not None:
+            tell(stiffened)
+        return lattice_kind(stiffened).block(count)
     search = block.search(target)
 
     def make(volume: float) -> BlockLattice:
-        return lattice_kind(search.specification(volume)).block(count)
+        tried = search.specification(volume)
+        if tell is not None:
+            tell(tried)
+        return lattice_kind(tried).block(count)
 
     def measure(made: BlockLattice) -> Report:
         return made.measured(Monitor(progress))

@@ -263,7 +263,11 @@ def test_a_block_is_written_as_it_was_measured(monkeypatch, tmp_path):
         strut_block, "mesh_octants", lambda *given: meshed.append(given) or mesh(*given)
     )
     spec = LatticeSpec(cell="BCC", cell_size=5.0, target=density(0.1))
-    block = solve_block_target(spec, (2, 2, 2))
+    told = []
+    block = solve_block_target(
+        spec, (2, 2, 2), tell=lambda tried: told.append((len(meshed), tried.strut_radius))
+    )
+    assert told == [(0, block.spec.strut_radius)], "before it is meshed"
     report = block.write_stl(tmp_path / "block.stl", Monitor(None))
     assert len(meshed) == 1
     assert report.relative_density == pytest.approx(0.1, rel=0.01)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from ...util.errors import VolfrepError
 from ...util.numbers import duration
 from ...util.types import Floats
+from .. import costs
 from ..cells import LIBRARY, UnitCell
 from ..graphs import StretchedCells
 from ..spec_fields import Kind, SpecFields
@@ -87,19 +89,16 @@ class StrutCells(Kind):
         return triangles_of_struts(self.spec, self.cube, shares)
 
     def meshing_seconds(self, sets: float) -> float:
-        """What octants take to be meshed that are of no library cell, s.
-
-        0 for those of the library, and for cells with mirrors whose struts meet at nodes only.
-
-        Args:
-            sets: how many different sets of a cell's eight octants there are.
+        """As of `Kind`; of cells that are not the library's, and without mirrors or with struts
+        that meet beside their nodes, by samples too.
         """
         spec, cell = self.spec, self.cube
         radius = spec.template_radius / spec.cell_size
         if LIBRARY.get(cell.name) == cell or (
             cell.is_mirror_symmetric and not crossing_struts(cell, radius)
         ):
-            return 0.0
+            facets = self.triangles_of_cell(self.strut_shares())
+            return costs.SECONDS_PER_OCTANT_TRIANGLE * facets * unlike_octants(cell, sets)
         ends = cell.nodes[cell.struts]
         lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         # So much of a surface is bare where solids lie anywhere in each other (Boolean model).
@@ -117,8 +116,6 @@ class StrutCells(Kind):
             VolfrepError: so they would.
         """
         seconds = self.meshing_seconds(1.0)
-        if seconds == 0.0:
-            return
         cell, spec = self.cube, self.spec
         crossing = crossing_struts(cell, spec.template_radius / spec.cell_size)
         if seconds <= LONGEST and crossing <= MOST_CROSSING:
@@ -155,6 +152,23 @@ def strut_shares(cell: UnitCell, on_face: Floats | float = 0.5) -> Floats:
     lies = (np.abs(ends - np.round(ends)) < 1e-9).all(axis=1) & (ends[:, 0] == ends[:, 1])
     shares: Floats = np.where(lies, on_face, 1.0).prod(axis=1)
     return shares
+
+
+@lru_cache(maxsize=16)
+def unlike_octants(cell: UnitCell, sets: float) -> float:
+    """How many octants of a cell are meshed, in eighths of it.
+
+    Args:
+        cell: they are of.
+        sets: as of `Kind.meshing_seconds`; about mirrors, neighbours show in no octant.
+    """
+    found, ends = set(), cell.nodes[cell.struts]
+    for mirror in itertools.product((False, True), repeat=3):
+        seen = np.where(mirror, 1.0 - ends, ends)
+        seen = seen[(seen.min(axis=1) < 0.5 - 1e-6).all(axis=1)]
+        rows = np.sort(np.round(1e6 * seen) @ [1.0, 2e6, 4e12], axis=1)
+        found.add(tuple(map(tuple, np.unique(rows, axis=0).tolist())))
+    return len(found) / 8.0 * (1.0 if len(found) == 1 else sets)
 
 
 @lru_cache(maxsize=16)

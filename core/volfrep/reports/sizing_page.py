@@ -28,6 +28,12 @@ _TOLD = (
     "struts", "as printed", "skin", "skin governed by", "solid", "one skin", "radius list",
     "removed", "governed by", "same mass", "same limits", "CalculiX",
 )  # fmt: skip
+#: A limit by its name.
+_LIMIT = {
+    "stress": "{:.4g} MPa", "skin stress": "{:.4g} MPa", "displacement": "{:.4g} mm",
+    "frequency": "{:.4g} Hz or more", "buckling": "at {:.4g} times the loads or more",
+    "frame buckling": "at {:.4g} times the loads or more",
+}  # fmt: skip
 _STYLE = """
 body{font:10.5pt/1.4 sans-serif;color:#111;max-width:190mm;margin:8mm auto;padding:0 4mm}
 h1{font-size:16pt;margin:0}h2{font-size:11.5pt;margin:5mm 0 1mm;border-bottom:1px solid #999}
@@ -127,15 +133,20 @@ def _material(material: Mapping[str, Any]) -> str:
 
 
 def _limits(report: Mapping[str, Any]) -> list[str]:
-    """Every limit, and what of it is used in both solutions; nothing without limits."""
+    """Every limit, its value, and what of it both solutions use; nothing without limits."""
     if not report["uses"]:
         return []
     there = (report["calculix"] or {}).get("uses", {})
     rows = [
-        (name, f"{use:.1%}", f"{there[name]:.1%}" if name in there else "-")
+        (
+            name,
+            _LIMIT[name].format(report["limits"][name]),
+            f"{use:.1%}",
+            f"{there[name]:.1%}" if name in there else "-",
+        )
         for name, use in report["uses"].items()
     ]
-    return ["<h2>Limits</h2>", _table(("", "used", "used in CalculiX"), rows)]
+    return ["<h2>Limits</h2>", _table(("", "limit", "used", "used in CalculiX"), rows)]
 
 
 def _masses(split: Mapping[str, float]) -> list[tuple[str, str]]:

@@ -59,6 +59,11 @@ class Limits:
         """Whether there is a limit at all."""
         return any(value is not None for value in vars(self).values())
 
+    def as_dict(self) -> dict[str, float]:
+        """Those that there are, by the names that their uses have."""
+        there = {name: value for name, value in vars(self).items() if value is not None}
+        return {name.replace("_", " "): value for name, value in there.items()}
+
 
 @dataclass(frozen=True, eq=False)
 class Problem:

@@ -391,6 +391,10 @@ def test_the_report_is_a_page_to_print(part: Path, tmp_path: Path) -> None:
     assert "@page" in text
     for said in ("Case down", "Case aside", "stress", "not solved by another program", "fatigue"):
         assert said in text
+    (limit, used) = re.findall(r"<td>stress</td><td>([0-9.]+) MPa</td><td>([0-9.]+)%", text)[0]
+    assert limit == "450"  # half of what the material of the loads yields at
+    stress = re.findall(r"<td>(?:down|aside)</td>.*<td>([0-9.]+)</td>", text)
+    assert max(map(float, stress)) == pytest.approx(float(limit) * float(used) / 100.0, rel=0.01)
     (mass,) = re.findall(r"<td>whole</td><td>([0-9.]+) g", text)
     assert float(mass) == pytest.approx(
         trimesh.load(part.with_name("out.stl")).volume * 4.41e-3, rel=0.01

@@ -452,6 +452,7 @@ def _record(
     )  # fmt: skip
     governed = governing(search.model.problem, search.sized.analysis, task.goal.limits)
     report["governed_by"] = governed.as_rows()
+    report["limits"] = task.goal.limits.as_dict()
     if taken is not None:
         report["removed"]["places"] = taken.places
     if search.any_radii is not None:
@@ -495,6 +496,7 @@ def _with_skin(report: dict[str, Any], peaks: list[float], task: _Task, model: S
         use = {"skin stress": max(peaks) / limit}
         report["uses"] = {**report["uses"], **use}
         last["uses"] = {**last["uses"], **use}
+        report["limits"]["skin stress"] = limit
 
 
 def _list_figures(radii: tuple[float, ...], search: _Search) -> dict[str, Any]:

@@ -105,9 +105,10 @@ def prusa_volume(path: Path) -> float:
 def prusa_project_volume(path: Path) -> float:
     """Volume in mm3 of the filament for a project that says itself how it is to be printed.
 
-    Infill does not reach into walls, which else adds a share of their width.
+    Infill reaches into walls as far as the slicer has it by itself.
     """
-    own = ("perimeters", "top_solid_layers", "bottom_solid_layers", "fill_density", "fill_pattern")
+    own = ("perimeters", "top_solid_layers", "bottom_solid_layers", "fill_density", "fill_pattern",
+           "infill_overlap")  # fmt: skip
     rest = [line for line in _PRUSA.splitlines() if line.partition(" =")[0] not in own]
     settings, gcode = path.with_suffix(".ini"), path.with_suffix(".prusa.gcode")
     settings.write_text("\n".join(rest))

@@ -27,6 +27,9 @@ from .scattered_field import read_curve
 #: Slicers refuse sparse patterns that are as good as solid.
 MOST = 95.0
 FEWEST_BANDS, MOST_BANDS = 2, 8
+#: Ends of lines are joined along walls where they are so close, mm, and have hooks so long else:
+#: of PrusaSlicer's own profiles; files say so, since narrow bands get much of their filament there.
+JOINED, HOOKED = 12.0, 2.5
 
 
 @dataclass(frozen=True)

@@ -60,6 +60,7 @@ def fit_within(
     limits: FileLimits,
     expect: Callable[[LatticeSpec], float],
     make: Callable[[LatticeSpec], tuple[T, int, float]],
+    each: float = 0.0,
 ) -> Fitted[T]:
     """Make a file with the finest facets, none finer than asked for, that keeps within limits.
 
@@ -68,6 +69,7 @@ def fit_within(
         limits: of the file.
         expect: about how many triangles a specification has.
         make: makes one; gives it, its triangles and the size of its file in megabytes.
+        each: bytes that a triangle takes at least in the file.
 
     Raises:
         VolfrepError: not even the coarsest facets that keep its struts round, or its walls whole,
@@ -78,7 +80,7 @@ def fit_within(
     finest, coarsest = spec.facets_along_cell, spec.kind.coarsest_resolution
     coarsest = min(coarsest, finest)
     told = expect(spec if coarsest == finest else _with(spec, coarsest))
-    if limits.triangles is not None and told > max(SURELY * limits.triangles, SLOW):
+    if told > SLOW and _used(limits, told, each * told / 1e6) > SURELY:
         raise _too_many(limits, coarsest, f"would have about {round_off(told)} triangles")
     low, high = coarsest, finest
     facets, best = _first(spec, limits, expect, coarsest, finest), None

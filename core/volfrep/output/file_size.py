@@ -11,7 +11,7 @@ from typing import TypeVar
 from ..design.file_limits import FileLimits
 from ..design.forecast import forecast_fill
 from ..design.spec import LatticeSpec
-from ..jobs.file_limits import fit_within
+from ..jobs.file_limits import STL_BYTES, fit_within
 from ..jobs.kinds import lattice_kind
 from ..mesh.triangle_mesh import TriangleMesh
 from .form import Form
@@ -64,7 +64,8 @@ def keep_within(
         size = written_size(made, form) if limits.megabytes is not None else 0.0
         return made, made.triangles, size
 
-    found = fit_within(spec, limits, expect, tried)
+    each = STL_BYTES if form.name == "stl" else 0.0  # others are packed, or longer
+    found = fit_within(spec, limits, expect, tried, each)
     return found.made, (found.note,) if found.note else ()
 
 

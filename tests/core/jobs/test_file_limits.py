@@ -154,10 +154,11 @@ def test_finer_facets_that_are_fewer_are_found(most, facets):
     assert 0.7 <= made.used <= 1.0
 
 
-def test_what_is_far_too_much_is_refused_before_it_is_made():
+@pytest.mark.parametrize("limits", [FileLimits(1_000_000, None), FileLimits(None, 64.0)])
+def test_what_is_far_too_much_is_refused_before_it_is_made(limits):
     spec = LatticeSpec(find_cell("BCC"), 4.0, strut_radius=0.4)
     with pytest.raises(VolfrepError, match="would have about 6,400,000 triangles, more than"):
-        fit_within(spec, FileLimits(1_000_000, None), lambda _: 6.38e6, pytest.fail)
+        fit_within(spec, limits, lambda _: 6.38e6, pytest.fail, 50.0)
 
 
 def test_services_are_known_by_name_source_and_date():

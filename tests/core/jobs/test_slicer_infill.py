@@ -4,6 +4,7 @@
 import itertools
 import xml.etree.ElementTree as ET
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -125,18 +126,26 @@ def test_prusa_slicer_lays_the_filament_that_was_told(part, wanted, tmp_path: Pa
 @pytest.mark.costly
 @needs_prusa_slicer
 def test_a_narrow_room_is_told_less_and_gets_what_is_wanted(tmp_path: Path):
-    """Between walls 1.5 mm apart joined ends of lines make up about half of 14 %."""
-    thin = samples.box((50.0, 4.0, 8.0))
-    made, walls = (
-        slicer_infill(thin, grading="formula", formula=f"{share} + 0 * x", line_width=WIDTH,
-                      walls=3, top_layers=0, bottom_layers=0)
-        for share in (14, 0)
-    )  # fmt: skip
-    assert made.bands[0].density < 0.75 * made.bands[0].mean
-    assert "joined ends of lines make up the rest" in made.rows()[0][1]
-    made.save(tmp_path / "part.3mf")
-    sparse = prusa_project_volume(tmp_path / "part.3mf") - walls.filament
-    assert sparse == pytest.approx(0.14 * made.bands[0].volume, rel=0.1)
+    """Between walls 1.5 mm apart joined ends of lines make up about half of 14 %.
+
+    At one angle a gyroid lays a fifth more or less, as its waves happen to meet the walls.
+    """
+    got, box = [], samples.box((50.0, 4.0, 8.0))
+    for angle in np.radians([0.0, 17.0, 45.0]):
+        across = np.array([-np.sin(angle), np.cos(angle), 0.0])
+        frame = np.array([np.cross(across, [0.0, 0.0, 1.0]), across, [0.0, 0.0, 1.0]])
+        thin = replace(box, vertices=box.vertices @ frame)
+        made, walls = (
+            slicer_infill(thin, grading="formula", formula=f"{share} + 0 * x", line_width=WIDTH,
+                          walls=3, top_layers=0, bottom_layers=0)
+            for share in (14, 0)
+        )  # fmt: skip
+        assert made.bands[0].density < 0.75 * made.bands[0].mean
+        assert "joined ends of lines make up the rest" in made.rows()[0][1]
+        made.save(tmp_path / "part.3mf")
+        laid = prusa_project_volume(tmp_path / "part.3mf") - walls.filament
+        got.append(laid / made.bands[0].volume)
+    assert np.mean(got) == pytest.approx(0.14, rel=0.2)
 
 
 @pytest.mark.costly

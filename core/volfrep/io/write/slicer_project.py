@@ -27,7 +27,7 @@ from pathlib import Path
 import numpy as np
 
 from ... import __version__
-from ...design.banded_infill import BandedInfill
+from ...design.banded_infill import HOOKED, JOINED, BandedInfill
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
 from ...util.files import replacing
@@ -52,6 +52,7 @@ class _Slicer:
         top: of the number of solid layers below faces that look up.
         bottom: the same above those that look down.
         small: of the area below which sparse infill becomes solid.
+        hook: of the length of hooks at ends of lines.
     """
 
     config: str
@@ -62,17 +63,19 @@ class _Slicer:
     top: str
     bottom: str
     small: str
+    hook: str
 
 
 _SLICERS = {
     "prusa": _Slicer(
         "Metadata/Slic3r_PE_model.config", (125.0, 105.0), "fill_density", "fill_pattern",
         "perimeters", "top_solid_layers", "bottom_solid_layers", "solid_infill_below_area",
+        "infill_anchor",
     ),
     "orca": _Slicer(
         "Metadata/model_settings.config", (128.0, 128.0), "sparse_infill_density",
         "sparse_infill_pattern", "wall_loops", "top_shell_layers", "bottom_shell_layers",
-        "minimum_sparse_infill_area",
+        "minimum_sparse_infill_area", "infill_anchor",
     ),
 }  # fmt: skip
 
@@ -115,7 +118,11 @@ def write_project(
         keys.top: str(wanted.top_layers),
         keys.bottom: str(wanted.bottom_layers),
         keys.small: "0",
+        keys.hook: f"{HOOKED:g}",
+        f"{keys.hook}_max": f"{JOINED:g}",
     }
+    if slicer == "prusa":  # the default of its profiles, and of the other's program
+        whole["ensure_vertical_shell_thickness"] = "1"
     own: list[dict[str, str]] = [{}] + [
         {keys.density: f"{share:.1f}%", keys.pattern: wanted.pattern} for share, _ in bands
     ]

@@ -9,7 +9,7 @@ because every option of every command is a row of one table.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,7 @@ from ..design.banded_words import GRADINGS, PATTERNS, SLICERS
 from ..design.file_limits import SERVICES
 from ..design.parameters.recipes import RECIPES
 from ..output.form import suffixes, suffixes_of, words
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, listed
 from .parser import numbers, shard, three_numbers, three_whole_numbers
 
 MESHED = ("fill", "block", "network")
@@ -83,11 +83,6 @@ class RunOption:
     def stored(self) -> str:
         """The attribute that holds its value."""
         return self.place or self.name.replace("-", "_")
-
-
-def listed(names: Sequence[str]) -> str:
-    """With commas, and `or` before the last."""
-    return f"{', '.join(names[:-1])} or {names[-1]}"
 
 
 RUN_OPTIONS = (

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..util.errors import VolfrepError, brief
+from ..util.errors import VolfrepError, brief, listed
 from ..util.numbers import number
 
 #: What can be aimed at, as parameters and files call it.
@@ -104,7 +104,7 @@ def read_target(
     if not given or given[-1] in THICKNESSES:
         return None
     if len(given) > 1:
-        both = f"{', '.join(say(name) for name in given[:-1])} and {say(given[-1])}"
+        both = listed([say(name) for name in given], "and")
         what = "walls" if any("wall" in name for name in given) else "struts"
         raise VolfrepError(f"{both} each say how thick the {what} are: give one of them.")
     aim, value = given[0], values[given[0]]

@@ -19,7 +19,7 @@ from ..mechanics.materials import SolidMaterial, find_material, material_of
 from ..mesh.smooth_faces import smooth_faces
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, listed
 from ..util.reading import read_toml
 from ..util.types import Ints
 from .load_cases import (
@@ -441,4 +441,4 @@ def _quantity(value: Any, kind: str, where: str) -> float:
 
 def _and(names: tuple[str, ...]) -> str:
     wanted = [f"{name} if it ends" if name in _OPTIONAL else name for name in names]
-    return f"{', '.join(wanted[:-1])} and {wanted[-1]}"
+    return listed(wanted, "and")

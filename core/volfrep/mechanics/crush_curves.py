@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, listed
 from ..util.types import Floats
 
 FILE = Path(__file__).with_name("crush_curves.json")
@@ -96,7 +96,7 @@ def find_cushions(plateau: float, material: str) -> list[Cushion]:
     asked = {name.lower(): name for name in names}.get(material.lower())
     if asked is None:
         raise VolfrepError(
-            f"No crush curves of {material} ship: choose {', '.join(names[:-1])} or {names[-1]}, "
+            f"No crush curves of {material} ship: choose {listed(names)}, "
             "or compute one by 'volfrep crush'."
         )
     found = []

@@ -1,11 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What can go wrong, as exceptions whose text is one sentence meant for a user."""
 
+from collections.abc import Sequence
+
 
 def brief(value: object) -> str:
     """A value in one short line, for a sentence."""
     text = " ".join(repr(value).split())
     return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def listed(names: Sequence[str], last: str = "or") -> str:
+    """Names with commas, and `last` before the last."""
+    return f" {last} ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
 
 
 class VolfrepError(ValueError):

@@ -15,6 +15,7 @@ from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.widgets.controls import push_button
 from freecad_volfrep.sentences import localise_cell
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
+from volfrep.reports.sizing_page import is_page
 from volfrep.util.files import replacing
 
 #: Of the window, px.
@@ -133,8 +134,7 @@ class ReportWindow(QtWidgets.QDialog):
             VolfrepError: the file cannot be written, or an open document reads it; it stays.
         """
         refuse_inputs_of_all(path)
-        is_html = Path(path).suffix.lower() in (".html", ".htm")
-        text = self._page() if is_html else as_csv(self._tables)
+        text = self._page() if is_page(path) else as_csv(self._tables)
         with replacing(path) as file:
             file.write(text.encode())
         tell_written(path)

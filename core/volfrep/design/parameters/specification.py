@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ...util.errors import VolfrepError
+from ...util.errors import VolfrepError, listed
 from ..cells import any_cell, find_cell
 from ..grading import CellMap, Field, Orientation, RadiusGrading, SizeGrading, read_point_field
 from ..graphs import GivenGraph, RandomGraph
@@ -191,8 +191,7 @@ def _useless(name: str, need: Need, say: Naming) -> str:
         such = "such a " * bool(need.values)
         return f"{say(name)} has no effect with {such}{what}: leave one of them out."
     if need.values:
-        words = [str(value) for value in need.values]
-        what += " " + " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+        what += f" {listed([str(value) for value in need.values])}"
     return f"{say(name)} has no effect without {what}: add that or leave it."
 
 

@@ -128,10 +128,10 @@ def test_prusa_slicer_lays_the_filament_that_was_told(part, wanted, tmp_path: Pa
 def test_a_narrow_room_is_told_less_and_gets_what_is_wanted(tmp_path: Path):
     """Between walls 1.5 mm apart joined ends of lines make up about half of 14 %.
 
-    At one angle a gyroid lays a fifth more or less, as its waves happen to meet the walls.
+    At one angle a gyroid lays up to a quarter more or less, as its waves happen to meet the walls.
     """
     got, box = [], samples.box((50.0, 4.0, 8.0))
-    for angle in np.radians([0.0, 17.0, 45.0]):
+    for angle in np.radians(np.arange(0.0, 90.0, 15.0)):
         across = np.array([-np.sin(angle), np.cos(angle), 0.0])
         frame = np.array([np.cross(across, [0.0, 0.0, 1.0]), across, [0.0, 0.0, 1.0]])
         thin = replace(box, vertices=box.vertices @ frame)
@@ -145,7 +145,7 @@ def test_a_narrow_room_is_told_less_and_gets_what_is_wanted(tmp_path: Path):
         made.save(tmp_path / "part.3mf")
         laid = prusa_project_volume(tmp_path / "part.3mf") - walls.filament
         got.append(laid / made.bands[0].volume)
-    assert np.mean(got) == pytest.approx(0.14, rel=0.2)
+    assert np.mean(got) == pytest.approx(0.14, rel=0.12)
 
 
 @pytest.mark.costly

@@ -197,7 +197,8 @@ def _slicer_density(mean: float, printed: Printed, band: int, wanted: BandedInfi
     bulk, more, *joined = LAID[wanted.pattern]
     share = float(printed.laid[band]) / volume
     outlines = printed.outlines[band][:, 0]
-    sides = 100.0 * wanted.spacing * printed.layer / volume * (printed.outlines[band] @ joined)
+    sides = (printed.outlines[band] * joined).sum(axis=1)
+    sides *= 100.0 * wanted.spacing * printed.layer / volume
 
     def laid(told: float) -> float:
         apart = 100.0 * wanted.spacing / told
@@ -206,7 +207,7 @@ def _slicer_density(mean: float, printed: Printed, band: int, wanted: BandedInfi
         near = 1.4 * JOINED / apart
         lines = outlines / (np.pi * apart)
         ends = (1.0 - np.exp(-near) * (1.0 + near)) * (1.0 + np.expm1(-lines) / lines)
-        return float((bulk + more * told / 100.0) * told * share + sides @ ends)
+        return float((bulk + more * told / 100.0) * told * share + (sides * ends).sum())
 
     least, most = LEAST_DENSITY, MOST
     while most - least > 1e-3:  # the more is told, the more is laid

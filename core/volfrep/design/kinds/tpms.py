@@ -175,11 +175,11 @@ def surface_area(surface: PeriodicSurface) -> float:
     """About the area of a surface in a cell, in units of L squared.
 
     By how often lines along x, y and z cross it (Crofton): where it faces all ways alike they do
-    so on 3/2 of its area; of Schwarz P this is 6 % too much.
+    so on 3/2 of its area; of Schwarz P this is 6 % too much, of the gyroid (3.09) 4 %.
 
     >>> from volfrep.design.tpms.library import SURFACES
-    >>> round(surface_area(SURFACES["Gyroid"]), 1)
-    3.1
+    >>> 3.1 < surface_area(SURFACES["Gyroid"]) < 3.3
+    True
     """
     angle = 2.0 * np.pi * (np.arange(AREA_SAMPLES) + 0.3) / AREA_SAMPLES
     formula = compile_expression(surface.formula, ("x", "y", "z"))

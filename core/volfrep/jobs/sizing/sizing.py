@@ -50,7 +50,14 @@ from .notes import (
 from .part_model import given_radii, part_model
 from .printed import Printing, printed_figures, printed_note
 from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, without_thin_struts
-from .skin_search import SkinDesign, design_skin, skin_peaks, thickness_there, weighed
+from .skin_search import (
+    SkinDesign,
+    design_skin,
+    lighter,
+    skin_peaks,
+    thickness_there,
+    weighed,
+)
 from .solid_places import filled_notes, solid_places
 
 #: So many times a design is made thicker because of what CalculiX finds.
@@ -58,9 +65,8 @@ CORRECTIONS = 3
 #: A skin is held to this part of its limit of stress, as its middle moves a little yet; and is
 #: chosen so many times. It holds its limit when that is used no more than so.
 MARGIN, SKINS, SKIN_HOLDS = 0.98, 2, 1.01
-#: Struts that grow by more than this with the skin as it is are searched for once more; between two
-#: designs the skin's stress is not quite linear.
-GROWN, BESIDE = 1.05, 0.05
+#: Struts that grow by more than this with the skin as it is are searched for once more.
+GROWN = 1.05
 #: The part with its skin is made so many times at most, until it has the mass asked for.
 WEIGHINGS, WEIGHED = 4, 0.005
 
@@ -335,32 +341,8 @@ def _with_this_skin(task: _Task, skin: SkinDesign, most_steps: int, watch: Watch
     else:
         found, holds = thicken(problem, limits, task.first)
         if holds and found.volume > GROWN * problem.radii.volume(task.first):
-            found = _lighter(task, found, most_steps, watch)
+            found = lighter(task.model, limits, found, most_steps, watch)
     return replace(skin.sized, analysis=found, steps=skin.steps, holds=holds)
-
-
-def _lighter(task: _Task, heavy: Analysis, most_steps: int, watch: Watch) -> Analysis:
-    """A design with less of struts, if the skin bears it: all had become thicker for a few.
-
-    Where the lightest stresses the skin too much, what lies between the two is tried.
-    """
-    model, limits = task.model, task.goal.limits
-    problem, limit = model.problem, limits.stress
-    light = lightest(problem, limits, heavy.radii, most_steps=most_steps, watch=watch)
-    if not light.holds or light.analysis.volume >= heavy.volume:
-        return heavy
-    if limit is None:
-        return light.analysis
-    most, least = (max(skin_peaks(model, one)) for one in (light.analysis, heavy))
-    if most <= HOLDS * limit:
-        return light.analysis
-    if least >= limit:
-        return heavy
-    share = min((most - limit) / (most - least) + BESIDE, 1.0)
-    radii = (1.0 - share) * light.analysis.radii + share * heavy.radii
-    between, holds = thicken(problem, limits, radii)
-    borne = holds and max(skin_peaks(model, between)) <= HOLDS * limit
-    return between if borne and between.volume < heavy.volume else heavy
 
 
 def _notes_of(task: _Task, search: _Search) -> list[str]:

@@ -22,7 +22,7 @@ from ...loads.load_cases import LoadCases
 from ...mesh.triangle_mesh import TriangleMesh
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel, with_sized_skin
-from ...sizing.optimise import Sized, Step, lightest, stiffest, uniform
+from ...sizing.optimise import HOLDS, Sized, Step, Watch, lightest, stiffest, thicken, uniform
 from ...sizing.skin_thickness import shares_of
 from ...sizing.symmetry import Mirrors
 from ...spatial.proximity import closest_points
@@ -44,6 +44,8 @@ _SEARCHES = 2
 #: A skin of less than this part of what is below it does not meet itself: half but for rounding, as
 #: one of even thickness was looked for no deeper than twice that.
 _CLEAR = 0.499
+#: Between two designs the skin's stress is linear but for this share.
+_CURVED = 0.05
 #: So many in all, where a part becomes solid in more places.
 _MOST_SEARCHES = 4
 
@@ -274,6 +276,38 @@ def skin_peaks(model: SizingModel, analysis: Analysis) -> list[float]:
     assert skin is not None
     stress = skin.stresses(analysis.displacements[model.frame_nodes :])
     return [most_but_peaks(row, skin.shells.area) for row in stress.T]
+
+
+def lighter(
+    model: SizingModel, limits: Limits, heavy: Analysis, most_steps: int, watch: Watch
+) -> Analysis:
+    """A design with less of struts, if the skin bears it: all had become thicker for a few.
+
+    Where the lightest stresses the skin too much, what lies between the two is tried.
+
+    Args:
+        model: with the skin as it is.
+        limits: that the design holds.
+        heavy: it.
+        most_steps: of the search.
+        watch: told of every step.
+    """
+    problem, limit = model.problem, limits.stress
+    light = lightest(problem, limits, heavy.radii, most_steps=most_steps, watch=watch)
+    if not light.holds or light.analysis.volume >= heavy.volume:
+        return heavy
+    if limit is None:
+        return light.analysis
+    most, least = (max(skin_peaks(model, one)) for one in (light.analysis, heavy))
+    if most <= HOLDS * limit:
+        return light.analysis
+    if least >= limit:
+        return heavy
+    share = min((most - limit) / (most - least) + _CURVED, 1.0)
+    radii = (1.0 - share) * light.analysis.radii + share * heavy.radii
+    between, holds = thicken(problem, limits, radii)
+    borne = holds and max(skin_peaks(model, between)) <= HOLDS * limit
+    return between if borne and between.volume < heavy.volume else heavy
 
 
 def thickness_there(model: SizingModel, domain: TriangleMesh) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from freecad_volfrep.translation import marked, spoken, translate
 
 _CONTEXT = "VolfrepSentences"
 
-#: As they are written where they are made; tests/core/test_sentences.py looks for each there.
+#: As they are written where they are made; tests/core/test_translations.py looks for each there.
 SENTENCES = marked(
     "VolfrepSentences",
     # Status of infills, bands and studies.

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
+from ..design.costs import STL_BYTES
 from ..design.file_limits import FileLimits
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import DEFAULT_RELATIVE_DEVIATION
@@ -22,8 +23,6 @@ from ..util.numbers import round_off
 
 T = TypeVar("T")
 
-#: Bytes of a triangle in a binary STL, by which sizes are judged before there is a file.
-STL_BYTES = 50.0
 #: A file that uses as much of its limits is not made anew to be finer.
 ENOUGH = 0.85
 #: The next file is made to use so much of them.

@@ -8,10 +8,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
+from ..design.costs import STL_BYTES
 from ..design.file_limits import FileLimits
 from ..design.forecast import forecast_fill
 from ..design.spec import LatticeSpec
-from ..jobs.file_limits import STL_BYTES, fit_within
+from ..jobs.file_limits import fit_within
 from ..jobs.kinds import lattice_kind
 from ..mesh.triangle_mesh import TriangleMesh
 from .form import Form

@@ -16,10 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..util.errors import VolfrepError
+from ..util.hands import Hands, Held, Shared
 from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import threads
-from .topology import Each, edge_uses, moved_vertices, touching
+from .topology import edge_uses, moved_vertices, touching
 from .triangle_mesh import TriangleMesh
 
 T = TypeVar("T")
@@ -168,13 +169,8 @@ def subtract_shells(
     return Quality(watertight=True, genus=whole.genus - gone.genus, bounds=bounds, **rest)
 
 
-def inspect(
-    mesh: TriangleMesh, monitor: Monitor | None = None, each: Each | None = None
-) -> Inspection:
-    """As `measure`, with the shell of every triangle and every shell's volume.
-
-    `each` is as of `edge_uses`.
-    """
+def inspect(mesh: TriangleMesh, monitor: Monitor | None = None) -> Inspection:
+    """As `measure`, with the shell of every triangle and every shell's volume."""
     used = np.zeros(len(mesh.vertices), bool)
     used[mesh.triangles.ravel()] = True
     vertices = int(np.count_nonzero(used))
@@ -186,10 +182,15 @@ def inspect(
     points = columns if vertices == len(used) else columns[:, used]
     bounds = np.array([points.min(axis=1), points.max(axis=1)])
 
-    uses = _run(monitor, lambda: edge_uses(mesh, each))
-    volumes, area, degenerate, repeated = _run(
-        monitor, lambda: _sizes(columns, bounds.mean(axis=0), mesh.triangles)
-    )
+    is_large = len(mesh.triangles) > BLOCK_TRIANGLES
+    hands = monitor.hands if monitor is not None and is_large else Hands()
+    with hands.sharing(columns, mesh.triangles) as (shared_columns, triangles):
+        uses = _run(monitor, lambda: edge_uses(mesh, hands, triangles))
+        middle = bounds.mean(axis=0)
+        volumes, area, degenerate, repeated = _run(
+            monitor,
+            lambda: _sizes(shared_columns, middle, triangles, len(mesh.triangles), hands),
+        )
     shell = uses.piece[mesh.triangles[:, 0]]
     shell_volumes = np.bincount(shell, volumes, minlength=uses.pieces).astype(np.float64)
     shells = uses.pieces
@@ -247,7 +248,11 @@ def quality_after_moves(
     if not float((way * (side + 2.0 * way) ** 2).sum()) < least:
         return None
     centre = old.mean(axis=0)
-    was, now = (_sizes(np.ascontiguousarray(each.T), centre, triangles) for each in (old, new))
+    held, hands = Held(triangles), Hands()
+    was, now = (
+        _sizes(Held(np.ascontiguousarray(each.T)), centre, held, len(triangles), hands)
+        for each in (old, new)
+    )
     return replace(
         quality,
         degenerate_triangles=quality.degenerate_triangles + now[2] - was[2],
@@ -285,34 +290,37 @@ def shape_statistics(mesh: TriangleMesh) -> ShapeStatistics:
 
 
 def _sizes(
-    columns: NDArray[np.float64], centre: NDArray[np.float64], triangles: NDArray[np.int32]
+    columns: Shared, centre: NDArray[np.float64], triangles: Shared, count: int, hands: Hands
 ) -> tuple[NDArray[np.float64], float, int, int]:
     """Signed volumes about a point, total area, degenerate triangles, repeated vertices."""
-    volumes = np.empty(len(triangles))
+    starts = range(0, count, BLOCK_TRIANGLES)
+    found = hands.each(_sizes_from, ((columns, centre, triangles, start) for start in starts))
+    volumes, areas, flats, repeats = zip(*found, strict=True)
+    return np.concatenate(volumes), float(sum(areas)), sum(flats), sum(repeats)
 
-    def block(start: int, stop: int) -> tuple[float, int, int]:
-        corners = np.ascontiguousarray(triangles[start:stop].T)
-        a, b, c = (
-            [column.take(corner) - at for column, at in zip(columns, centre, strict=True)]
-            for corner in corners
-        )
-        e = [b[k] - a[k] for k in range(3)]
-        f = [c[k] - a[k] for k in range(3)]
-        normal = cross_columns(e, f)
-        volumes[start:stop] = dot_columns(a, normal) / 6.0
-        doubled = np.sqrt(dot_columns(normal, normal))
-        flat = doubled <= DEGENERATE_HEIGHT * np.maximum(dot_columns(e, e), dot_columns(f, f))
-        repeated = (
-            (corners[0] == corners[1]) | (corners[1] == corners[2]) | (corners[2] == corners[0])
-        )
-        return (
-            float(doubled.sum()) / 2.0,
-            int(np.count_nonzero(flat | repeated)),
-            int(np.count_nonzero(repeated)),
-        )
 
-    areas, flats, repeats = zip(*_in_blocks(block, len(triangles)), strict=True)
-    return volumes, float(sum(areas)), sum(flats), sum(repeats)
+def _sizes_from(
+    columns: Shared, centre: NDArray[np.float64], triangles: Shared, start: int
+) -> tuple[NDArray[np.float64], float, int, int]:
+    """As `_sizes`, of a block of triangles."""
+    corners = np.ascontiguousarray(triangles.array[start : start + BLOCK_TRIANGLES].T)
+    places = columns.array
+    a, b, c = (
+        [column.take(corner) - at for column, at in zip(places, centre, strict=True)]
+        for corner in corners
+    )
+    e = [b[k] - a[k] for k in range(3)]
+    f = [c[k] - a[k] for k in range(3)]
+    normal = cross_columns(e, f)
+    doubled = np.sqrt(dot_columns(normal, normal))
+    flat = doubled <= DEGENERATE_HEIGHT * np.maximum(dot_columns(e, e), dot_columns(f, f))
+    repeated = (corners[0] == corners[1]) | (corners[1] == corners[2]) | (corners[2] == corners[0])
+    return (
+        dot_columns(a, normal) / 6.0,
+        float(doubled.sum()) / 2.0,
+        int(np.count_nonzero(flat | repeated)),
+        int(np.count_nonzero(repeated)),
+    )
 
 
 def _block_shapes(

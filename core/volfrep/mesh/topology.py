@@ -9,7 +9,6 @@ scipy's graphs are loaded when a large one is asked for: that takes as long as a
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
@@ -17,13 +16,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..util.hands import Hands, Held, Shared
 from ..util.ragged import rows_of
 from ..util.threads import in_threads, threads
 from ..util.types import Bools, Ints
 from .triangle_mesh import TriangleMesh
-
-#: Makes calls of a function with what it is given each time, in their order.
-Each = Callable[[Callable[..., Any], Iterable[tuple[Any, ...]]], Iterable[Any]]
 
 #: Triangles whose edges are counted at once: what that takes does not grow with the mesh then.
 BLOCK_TRIANGLES = 1 << 17
@@ -164,31 +161,30 @@ class EdgeUses:
     pieces: int
 
 
-def edge_uses(mesh: TriangleMesh, each: Each | None = None) -> EdgeUses:
+def edge_uses(
+    mesh: TriangleMesh, hands: Hands | None = None, triangles: Shared | None = None
+) -> EdgeUses:
     """How often edges are used, found of some triangles at a time.
 
     An edge is used in two blocks only if both its ends are: such edges are added up at the end.
 
     Args:
         mesh: any.
-        each: makes the calls of a function with what it is given each time, in their order, as in
-            other processes; None: threads do.
+        hands: look at the blocks; None: threads.
+        triangles: those of the mesh, as these hands share them.
     """
-    size, starts = np.int64(len(mesh.vertices)), range(0, len(mesh.triangles), BLOCK_TRIANGLES)
-    blocks = [mesh.triangles[k : k + BLOCK_TRIANGLES] for k in starts]
+    hands, size = hands or Hands(), np.int64(len(mesh.vertices))
+    starts = range(0, len(mesh.triangles), BLOCK_TRIANGLES)
     last, shared = np.full(size, -1, np.int32), np.zeros(size, bool)
-    for number, block in enumerate(blocks):
-        corners = block.ravel()
+    for start in starts:
+        corners = mesh.triangles[start : start + BLOCK_TRIANGLES].ravel()
         before = last[corners]
-        shared[corners[(before >= 0) & (before != number)]] = True
-        last[corners] = number
-
-    def given() -> Iterator[tuple[NDArray[np.int32], Bools]]:
-        for block in blocks:
-            yield block, shared[int(block.min()) : int(block.max()) + 1]
-
-    each = each or (lambda function, blocks: in_threads(lambda one: function(*one), blocks))
-    found = list(each(_uses_in, given()))
+        shared[corners[(before >= 0) & (before != start)]] = True
+        last[corners] = start
+    with hands.sharing(shared) as (is_shared,):
+        every = triangles or Held(mesh.triangles)
+        given = ((every, start, BLOCK_TRIANGLES, is_shared) for start in starts)
+        found = list(hands.each(_uses_in, given))
     ends, uses = np.zeros((0, 2), np.int64), np.zeros((0, 2), np.int64)
     if found:
         ends = np.concatenate([block.ends for block in found])
@@ -220,11 +216,13 @@ class _Block:
     lowest: Ints
 
 
-def _uses_in(triangles: NDArray[np.int32], shared: Bools) -> _Block:
-    """What is found of some triangles, of whose vertices, from the lowest on, some are shared."""
+def _uses_in(every: Shared, first: int, count: int, is_shared_in: Shared) -> _Block:
+    """What is found of some triangles of all, of whose vertices some other ones use, too."""
     from scipy.sparse.csgraph import connected_components
 
-    low = int(triangles.min())
+    triangles = every.array[first : first + count]
+    low, high = int(triangles.min()), int(triangles.max())
+    shared = is_shared_in.array[low : high + 1]
     is_used = np.zeros(len(shared), bool)
     is_used[triangles - np.int32(low)] = True
     used = np.flatnonzero(is_used)

@@ -15,7 +15,8 @@ from queue import SimpleQueue
 from typing import Any, TypeVar
 
 from ..util.errors import VolfrepError
-from ..util.threads import in_threads, threads
+from ..util.hands import Hands
+from ..util.threads import threads
 from .worker import Call, Ending, Program, Worker, WorkerLost, this_python
 
 T = TypeVar("T")
@@ -45,6 +46,11 @@ class WorkerPool(ThreadPoolExecutor):
         self._idle: SimpleQueue[Worker | None] = SimpleQueue()
         for _ in range(count):
             self._idle.put(self._started() if program.warm else None)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it still takes calls."""
+        return self._is_open
 
     def submit(self, function: Callable[..., Any], /, *given: Any, **named: Any) -> Future[Any]:
         """As of any executor; the call fails with `WorkerLost` where its worker ends.
@@ -127,38 +133,45 @@ def on_this_machine(executor: Executor | None) -> Executor | None:
     return executor if isinstance(executor, WorkerPool) else None
 
 
-def each_of(
-    function: Callable[..., T], given: Iterable[tuple[Any, ...]], executor: Executor | None
-) -> Iterator[T]:
-    """What a function makes of each of what it is given, in their order.
+class WorkerHands(Hands):
+    """Workers of this machine, as long as they are not let go."""
 
-    Args:
-        function: of a module, of what pickles.
-        given: its arguments, each time.
-        executor: its processes on this machine are asked, a few calls ahead; None: threads of this
-            process. What a worker was lost with is made here.
-    """
-    executor = on_this_machine(executor)
-    if executor is None:
-        yield from in_threads(lambda each: function(*each), given)
-        return
-    waiting: deque[tuple[tuple[Any, ...], Future[T] | None]] = deque()
+    def __init__(self, executor: WorkerPool) -> None:
+        self._executor = executor
 
-    def first() -> T:
-        each, future = waiting.popleft()
-        if future is None or future.cancelled() or future.exception() is not None:
-            return function(*each)  # what is wrong with the call itself shows again
-        return future.result()
+    @property
+    def are_others(self) -> bool:
+        """As of any hands."""
+        return self._executor.is_open
 
-    for each in given:
-        try:
-            waiting.append((each, executor.submit(function, *each)))
-        except RuntimeError:  # it takes nothing more, as when its processes were killed
-            waiting.append((each, None))
-        if len(waiting) > 2 * at_once(executor):
+    def each(self, function: Callable[..., T], given: Iterable[tuple[Any, ...]]) -> Iterator[T]:
+        """As of any hands, a few calls ahead; what a worker was lost with is made here."""
+        if not self.are_others:
+            yield from super().each(function, given)
+            return
+        executor = self._executor
+        waiting: deque[tuple[tuple[Any, ...], Future[T] | None]] = deque()
+
+        def first() -> T:
+            each, future = waiting.popleft()
+            if future is None or future.cancelled() or future.exception() is not None:
+                return function(*each)  # what is wrong with the call itself shows again
+            return future.result()
+
+        for each in given:
+            try:
+                waiting.append((each, executor.submit(function, *each)))
+            except RuntimeError:  # it takes nothing more, as when its processes were killed
+                waiting.append((each, None))
+            if len(waiting) > 2 * at_once(executor):
+                yield first()
+        while waiting:
             yield first()
-    while waiting:
-        yield first()
+
+
+def hands_of(executor: Executor | None) -> Hands:
+    """An executor's processes of this machine; threads for any other."""
+    return WorkerHands(executor) if isinstance(executor, WorkerPool) else Hands()
 
 
 def let_go(executor: Executor | None) -> None:

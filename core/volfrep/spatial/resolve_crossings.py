@@ -29,6 +29,7 @@ from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
 from .piercing import pairs_among, pairs_at_planes, piercing_among
+from .regions import in_regions
 from .self_intersection import about, close_pairs
 
 #: Vertices of crossing triangles move by so much of the way to the middle of their neighbours, one
@@ -432,14 +433,24 @@ def _crossing(
     if not len(rows) or (wanted is not None and not wanted.any()):
         return np.zeros((0, 2), np.int64)
     part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
+    if wanted is None:
+        wanted = np.ones(len(rows), bool)
+    pairs: Ints = np.unique(
+        rows[np.concatenate(list(in_regions(_rounded_crossing, part, wanted, step, monitor)))],
+        axis=0,
+    )
+    return pairs
+
+
+def _rounded_crossing(part: TriangleMesh, wanted: Bools, step: float, monitor: Monitor) -> Ints:
+    """(k, 2) triangles of a mesh, one of them wanted, that cross in a file of either kind."""
     # Neither rounding moves a coordinate by more than a step: few pairs need an exact look, twice.
     close = pairs_at_planes(part, step, monitor, wanted)
     found = [
         piercing_among(TriangleMesh(vertices, part.triangles), close)
         for vertices in (_single(part.vertices), _single(rounded(part.vertices, step)))
     ]
-    pairs: Ints = np.unique(rows[np.concatenate(found)], axis=0)
-    return pairs
+    return np.concatenate(found)
 
 
 def _single(vertices: Floats) -> Floats:

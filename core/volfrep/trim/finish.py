@@ -20,12 +20,13 @@ from ..mesh.precision import merging_vertices
 from ..mesh.quality import Quality, quality_after_moves, refuse_no_solid
 from ..mesh.topology import moved_vertices, touching, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..spatial.regions import in_regions
 from ..spatial.resolve_crossings import Folds, folds_of, resolve_fold_crossings
-from ..spatial.self_intersection import about, crossing_triangles
+from ..spatial.self_intersection import about, crossing_edges
 from ..spatial.winding import Lines
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor, release_memory
-from ..util.types import Floats, Ints
+from ..util.types import Bools, Floats, Ints
 from .trimmed_surface import TrimmedSurface
 
 #: Octants that are nearer to triangles that cross than this may have to go along where these are
@@ -69,9 +70,15 @@ def tidy(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimmed
             return tidy(surface.with_octants(near, monitor), precision, monitor)
         part = result.on(compact(part)).with_octants(near, monitor).mesh
         among = np.pad(among, (0, len(part.triangles) - len(among)))
-    if monitor.call(lambda: crossing_triangles(part, among, precision)).any():
+    if any(map(len, in_regions(_crossing, part, among, precision, monitor))):
         return surface  # a sliver is better than facets that cross
     return result
+
+
+def _crossing(part: TriangleMesh, among: Bools, precision: float, monitor: Monitor) -> Ints:
+    """(k, 2) triangles, one of them among the chosen, that cross by more than the precision."""
+    one, other, _ = monitor.call(lambda: crossing_edges(part, among, precision))
+    return np.stack([one, other], axis=1)
 
 
 def finish(

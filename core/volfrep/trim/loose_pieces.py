@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.quality import Quality, measure, subtract_shells
-from ..mesh.topology import Each
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..octants.octant_spec import OctantSpec
 from ..spatial.rays import inside_points
@@ -51,7 +50,6 @@ def clear(
     floating: bool = False,
     keep: NDArray[np.int64] | None = None,
     bodies: int = 0,
-    each: Each | None = None,
 ) -> Cleared:
     """Remove what hangs on nothing, and shells too small to mean anything.
 
@@ -64,9 +62,8 @@ def clear(
         keep: triangles of the mesh whose shells stay, all other pieces of material go; None: all
             stay.
         bodies: so many of the largest pieces of material stay, all others go; 0: all stay.
-        each: as of `inspect`.
     """
-    joined = surface.inspected(monitor, each)
+    joined = surface.inspected(monitor)
     found, mesh = joined.found, surface.mesh
     label, volume = found.shell, found.volume
     used = joined.beyond | (np.bincount(label, minlength=len(volume)) > 0)

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from concurrent.futures import Executor
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +27,6 @@ from ..mesh.quality import combine, inspect
 from ..mesh.triangle_mesh import TriangleMesh, concatenate
 from ..octants.octant import OctantGrid, used_kinds
 from ..octants.octant_spec import OctantSpec
-from ..process.pool import each_of
 from ..shell.domain import Domain
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
@@ -122,7 +120,7 @@ def cut_lattice(
     full = cells_are_full(octant_spec.cell_size, octant_spec.strut_radius)
     return cleared_cut(
         cut(), solid, domain, smallest_shell(octant_spec), full, monitor,
-        has_skin=has_skin, with_skin=with_skin, keep_pieces=keep_pieces, executor=executor,
+        has_skin=has_skin, with_skin=with_skin, keep_pieces=keep_pieces,
     )  # fmt: skip
 
 
@@ -137,7 +135,6 @@ def cleared_cut(
     has_skin: bool,
     with_skin: bool,
     keep_pieces: bool = False,
-    executor: Executor | None = None,
 ) -> Cleared:
     """A part or lattice that was cut, without loose pieces and slivers, and its quality.
 
@@ -151,7 +148,6 @@ def cleared_cut(
         has_skin: whether a skin lies about the domain, which holds the lattice.
         with_skin: whether the lattice is joined to it.
         keep_pieces: pieces that hang on nothing stay.
-        executor: its processes on this machine count edges; None: threads.
 
     Raises:
         VolfrepError: nothing is left, or nothing would hold it.
@@ -172,8 +168,7 @@ def cleared_cut(
     if not (has_skin or keep_pieces):
         bodies = max(1, inspect(solid).quality.bodies)
     floating = with_skin and not keep_pieces
-    each = partial(each_of, executor=executor)
-    cleared = clear(surface, smallest, monitor, floating=floating, bodies=bodies, each=each)
+    cleared = clear(surface, smallest, monitor, floating=floating, bodies=bodies)
     if not cleared.surface.triangles:
         if with_skin:
             raise full

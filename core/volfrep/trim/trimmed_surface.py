@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..lattice.assembly import facet_blocks
 from ..mesh.quality import Inspection, Quality, inspect
-from ..mesh.topology import Each, corners_among, pieces_of
+from ..mesh.topology import corners_among, pieces_of
 from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..spatial.resolve_crossings import Looks
 from ..spatial.winding import Lines, Windings, mesh_blocks
@@ -129,13 +129,13 @@ class TrimmedSurface:
         row = self._rim_rows[np.searchsorted(self._inner.rim, self._inner.pieces.rim)]
         return not np.isin(start[both] * size + end[both], row[:, 1] * size + row[:, 0]).all()
 
-    def inspected(self, monitor: Monitor, each: Each | None = None) -> JoinedInspection:
-        """Topology, volume and size of the whole; `each` as of `inspect`.
+    def inspected(self, monitor: Monitor) -> JoinedInspection:
+        """Topology, volume and size of the whole.
 
         Raises:
             RuntimeError: the parts do not fit together.
         """
-        found = inspect(self.mesh, monitor, each)
+        found = inspect(self.mesh, monitor)
         inner = self.octants
         if inner is None:
             return JoinedInspection(found, np.zeros(len(found.volume), bool))

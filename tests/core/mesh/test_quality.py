@@ -223,7 +223,7 @@ def test_many_pinched_vertices_over_several_blocks(monkeypatch: pytest.MonkeyPat
 def test_measuring_can_be_cancelled(monkeypatch: pytest.MonkeyPatch) -> None:
     held = threading.Event()
 
-    def slow(mesh: TriangleMesh, each: object) -> None:
+    def slow(*_: object) -> None:
         held.wait(30)
 
     monkeypatch.setattr("volfrep.mesh.quality.edge_uses", slow)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 from collections import Counter
-from functools import partial
 
 import numpy as np
 import pytest
@@ -12,7 +11,7 @@ from volfrep.mesh import topology
 from volfrep.mesh.quality import inspect
 from volfrep.mesh.topology import edge_uses
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
-from volfrep.process.pool import WorkerPool, each_of, processes
+from volfrep.process.pool import WorkerPool, hands_of, processes
 
 
 def torn(seed):
@@ -96,11 +95,11 @@ def test_processes_count_the_edges_that_threads_do(monkeypatch: pytest.MonkeyPat
     assert here.open == 6
     with processes(2) as executor:
         assert isinstance(executor, WorkerPool)
-        there = edge_uses(open_, partial(each_of, executor=executor))
+        there = edge_uses(open_, hands_of(executor))
         assert executor.workers, "they were asked"
         for worker in executor.workers:
             worker.kill()
-        lost = edge_uses(open_, partial(each_of, executor=executor))
-    for found in (there, lost, edge_uses(open_, partial(each_of, executor=executor))):
+        lost = edge_uses(open_, hands_of(executor))
+    for found in (there, lost, edge_uses(open_, hands_of(executor))):
         for name, value in vars(here).items():
             np.testing.assert_array_equal(getattr(found, name), value, name)

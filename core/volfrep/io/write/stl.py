@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, Future, wait
-from contextlib import closing
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from functools import partial
 
@@ -17,6 +17,7 @@ from ...mesh.precision import refuse_lost_corners, single_precision
 from ...mesh.triangle_mesh import TriangleMesh, compact
 from ...util.errors import VolfrepError
 from ...util.files import replacing, write_at
+from ...util.hands import Hands, Held, Mapped, Shared
 from ...util.progress import POLL_SECONDS, Monitor
 from ...util.threads import in_threads
 from ...util.types import Floats
@@ -79,10 +80,44 @@ def mesh_blocks(
     Raises:
         VolfrepError: as `write_stl`.
     """
-    vertices = single_precision(mesh, path)
-    for start in range(first, len(mesh.triangles), BLOCK_FACETS):
-        block = mesh.triangles[start : start + BLOCK_FACETS]
-        yield Block(len(block), partial(facets_at, vertices, block, path))
+    vertices, triangles = Held(single_precision(mesh, path)), Held(mesh.triangles)
+    return _blocks_between(vertices, triangles, first, len(mesh.triangles), path, goes=False)
+
+
+@contextmanager
+def blocks_for(
+    mesh: TriangleMesh, path: str | os.PathLike[str], executor: Executor | None
+) -> Iterator[Callable[[int], Iterator[Block]]]:
+    """`mesh_blocks` from a facet on, which an executor's processes on this machine may make."""
+    hands = Hands()
+    if executor is not None:
+        from ...process.pool import hands_of  # of no use to blocks, and slow to import
+
+        hands = hands_of(executor)
+    count = len(mesh.triangles)
+    with hands.sharing(single_precision(mesh, path), mesh.triangles) as (vertices, triangles):
+        goes = isinstance(triangles, Mapped)
+        yield lambda first: _blocks_between(vertices, triangles, first, count, path, goes=goes)
+
+
+def _blocks_between(
+    vertices: Shared,
+    triangles: Shared,
+    first: int,
+    count: int,
+    path: str | os.PathLike[str],
+    *,
+    goes: bool,
+) -> Iterator[Block]:
+    for start in range(first, count, BLOCK_FACETS):
+        stop = min(start + BLOCK_FACETS, count)
+        yield Block(stop - start, partial(_facets, vertices, triangles, start, stop, path), goes)
+
+
+def _facets(
+    vertices: Shared, triangles: Shared, start: int, stop: int, path: str | os.PathLike[str]
+) -> Facets:
+    return facets_at(vertices.array, triangles.array[start:stop], path)
 
 
 def write_facets(

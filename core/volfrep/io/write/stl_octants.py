@@ -26,7 +26,7 @@ from ...lattice.assembly import Layout, in_steps, numbers, placed
 from ...octants.octant import Octant, OctantGrid
 from ...util.progress import Monitor
 from ...util.types import Bools, Floats, Ints
-from .stl import BLOCK_FACETS, FACET, Block, Facets, facets_at, mesh_blocks, write_facets
+from .stl import BLOCK_FACETS, FACET, Block, Facets, blocks_for, facets_at, write_facets
 
 if TYPE_CHECKING:
     from ...trim.placed_lattice import InnerOctants
@@ -76,13 +76,14 @@ def write_surface_stl(
         VolfrepError: as `write_stl` and `write_octants_stl`.
         Cancelled: when the monitor says so; no file is left behind.
     """
-    rest = mesh_blocks(surface.mesh, path)
-    inner = places_of(surface)
-    if inner is not None:
-        filled = filled_places(surface, inner, path)
-        blocks = (some.block(facets) for some, facets in filled)
-        rest = chain(blocks, mesh_blocks(surface.mesh, path, left_over(surface, inner)))
-    write_facets(path, surface.triangles, rest, monitor, executor)
+    with blocks_for(surface.mesh, path, executor) as mesh_blocks:
+        rest = mesh_blocks(0)
+        inner = places_of(surface)
+        if inner is not None:
+            filled = filled_places(surface, inner, path)
+            octants = (some.block(facets) for some, facets in filled)
+            rest = chain(octants, mesh_blocks(left_over(surface, inner)))
+        write_facets(path, surface.triangles, rest, monitor, executor)
 
 
 def places_of(surface: TrimmedSurface) -> InnerOctants | None:

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Who makes the calls that one job divides its work into: threads of this process, or others.
+
+Large arrays that all of the calls need lie in files for other processes, which map them: each is
+sent a path, and what was written a moment ago is still in memory.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .threads import in_threads
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, eq=False)
+class Held:
+    """An array of this process, for its threads."""
+
+    array: NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Mapped:
+    """An array in a file."""
+
+    path: Path
+
+    @property
+    def array(self) -> NDArray[Any]:
+        """It, read only; the file is closed once nobody has this any more."""
+        found: NDArray[Any] = np.asarray(np.load(self.path, mmap_mode="r"))
+        return found
+
+
+#: An array that calls of a function share, in this process or in others.
+Shared = Held | Mapped
+
+
+class Hands:
+    """Threads of this process, which make calls side by side."""
+
+    @property
+    def are_others(self) -> bool:
+        """Whether other processes of this machine make the calls."""
+        return False
+
+    def each(self, function: Callable[..., T], given: Iterable[tuple[Any, ...]]) -> Iterator[T]:
+        """What a function of a module makes of each of what it is given, in their order."""
+        return in_threads(lambda each: function(*each), given)
+
+    @contextmanager
+    def sharing(self, *arrays: NDArray[Any]) -> Iterator[tuple[Shared, ...]]:
+        """Arrays of numbers for the calls.
+
+        Raises:
+            OSError: the disk of temporary files is full.
+        """
+        if not self.are_others or not all(array.size for array in arrays):
+            yield tuple(Held(array) for array in arrays)
+            return
+        # Where a reader is ended in the middle of it, Windows keeps its file for a moment.
+        with tempfile.TemporaryDirectory(prefix="volfrep-", ignore_cleanup_errors=True) as folder:
+            files = [Path(folder) / f"{number}.npy" for number in range(len(arrays))]
+            for file, array in zip(files, arrays, strict=True):
+                np.save(file, array)
+            yield tuple(Mapped(file) for file in files)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib import import_module
+from threading import Thread
 from typing import Any
 
 import FreeCAD as App
@@ -489,7 +490,7 @@ class SizePanel:
 def _get_ready() -> None:
     """Load what sizing needs, here and in the process that will make it, while loads are picked."""
     engines().warm(SIZING)
-    import_module(SIZING)
+    Thread(target=import_module, args=(SIZING,), name="volfrep-sizing").start()
 
 
 def _step_in_words(step: tuple[str, ...]) -> tuple[str, ...]:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..output.form import Form, find_form, suffixes_of
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, listed
 from .files import check_files
 from .parameter_options import Specified, specified, values_to_keep
 from .run_options import refuse_extensions
@@ -449,10 +449,7 @@ def _print_process(
             name = process.name
         if solid is not None and solid.processes and process.name not in solid.processes:
             print_warnings(
-                [
-                    f"{solid.name} is printed by {' or '.join(solid.processes)}, not by "
-                    f"{process.name}."
-                ]
+                [f"{solid.name} is printed by {listed(solid.processes)}, not by {process.name}."]
             )
     return None if name is None else find_process(name)
 

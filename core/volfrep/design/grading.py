@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, listed
 from ..util.linalg import along, rotation, times
 from ..util.numbers import direction, number, point, whole
 from ..util.types import Floats
@@ -171,9 +171,7 @@ class CellMap:
 
     def __post_init__(self) -> None:
         if self.kind not in MAPS[1:]:
-            raise VolfrepError(
-                f"There is no cell map '{self.kind}': choose {' or '.join(MAPS[1:])}."
-            )
+            raise VolfrepError(f"There is no cell map '{self.kind}': choose {listed(MAPS[1:])}.")
         if self.centre is not None:
             point("centre of the cell map", self.centre)
         direction("axis of the cell map", self.axis)

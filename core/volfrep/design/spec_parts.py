@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, listed
 from ..util.numbers import number, point, whole
 from ..util.types import Floats
 from .grading import CellMap, Field, Orientation, RadiusGrading, SizeGrading, Vector
@@ -220,9 +220,7 @@ class Boundary:
                 f"{', '.join(ACTIVATIONS)}."
             )
         if self.cut not in BOUNDARIES:
-            raise VolfrepError(
-                f"There is no boundary '{self.cut}': choose {' or '.join(BOUNDARIES)}."
-            )
+            raise VolfrepError(f"There is no boundary '{self.cut}': choose {listed(BOUNDARIES)}.")
         number("shortest stub", self.shortest_stub, "mm", positive=False)
         number("radius to remove below", self.remove_below, "mm", positive=False)
 

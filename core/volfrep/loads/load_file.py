@@ -292,7 +292,7 @@ class _Reader:
         _known(table, _LOAD, where)
         given = [key for key in _LOADS if key in table]
         if len(given) != 1:
-            what = f"gives {' and '.join(given)}" if given else "gives none"
+            what = f"gives {listed(given, 'and')}" if given else "gives none"
             raise VolfrepError(f"{where}: it {what}: give one of force, moment and pressure.")
         kind = given[0]
         if "at" in table and kind != "force":

@@ -19,7 +19,7 @@ from ..mesh.remesh import facet_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..util.content import content_of, freeze
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, listed
 from ..util.types import Bools, Floats
 
 Vector = tuple[float, float, float]
@@ -281,7 +281,7 @@ class AnyOf:
         return np.asarray(np.any(taken, axis=0))
 
     def __str__(self) -> str:
-        return " and ".join(str(region) for region in self.regions)
+        return listed([str(region) for region in self.regions], "and")
 
 
 Region = InPlane | InBox | InCylinder | NearPoint | OnFacets | OnLine | AllOf | AnyOf

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, listed
 
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
@@ -192,13 +192,11 @@ def find_form(path: str | os.PathLike[str], word: str | None = None) -> Form:
         if form.word == word:
             return form
     there = [form.word for form in found if form.word] or [form.name for form in found]
-    raise VolfrepError(
-        f"'{path}' cannot hold '{word}': its extension stands for {' or '.join(there)}."
-    )
+    raise VolfrepError(f"'{path}' cannot hold '{word}': its extension stands for {listed(there)}.")
 
 
 def unknown(path: str | os.PathLike[str], known: Sequence[str]) -> str:
     """What is wrong with a path's extension."""
     suffix = Path(path).suffix
     named = f"the extension '{suffix}'" if suffix else "a name without an extension"
-    return f"{named} is not a known format, use {' or '.join(known)}."
+    return f"{named} is not a known format, use {listed(known)}."

@@ -20,7 +20,7 @@ from ..mechanics.materials import SolidMaterial, find_material
 from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.processes import Process, find_process
 from ..util.arguments import check_kind, check_path
-from ..util.errors import VolfrepError
+from ..util.errors import VolfrepError, listed
 from .actions import check_actions
 from .sampling import SAMPLINGS, Range
 
@@ -59,7 +59,7 @@ class Front:
         for name, way in self.objectives.items():
             if way not in _WAYS:
                 raise VolfrepError(
-                    f"The objective '{name}' cannot be {way!r}: choose {' or '.join(_WAYS)}."
+                    f"The objective '{name}' cannot be {way!r}: choose {listed(_WAYS)}."
                 )
             if "." not in name:
                 raise VolfrepError(

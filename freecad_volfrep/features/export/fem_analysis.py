@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from freecad_volfrep.features.infill.materials import for_solver
 from freecad_volfrep.features.jobs.progress import all_or_nothing, go_through, job_title
 from freecad_volfrep.translation import translate
-from volfrep.util.errors import VolfrepError
+from volfrep.util.errors import VolfrepError, listed
 
 from .exact import inputs_of, warn
 from .solver_files import beams_of, estimate_file, tetrahedra_of
@@ -68,7 +68,7 @@ def make_fem_analysis(
         Cancelled: in the window, by the user; nothing is added.
     """
     if model not in MODELS:
-        raise VolfrepError(f"There is no model '{model}': choose {' or '.join(MODELS)}.")
+        raise VolfrepError(f"There is no model '{model}': choose {listed(MODELS)}.")
     inputs_of(obj)
     material = material or for_solver(obj)
     return (_beams if model == "beams" else _tetrahedra)(doc, obj, material)

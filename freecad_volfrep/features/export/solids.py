@@ -10,7 +10,7 @@ import FreeCAD as App
 
 from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
 from freecad_volfrep.translation import translate
-from volfrep.util.errors import VolfrepError
+from volfrep.util.errors import VolfrepError, listed
 
 from .exact import checked_ingredients, exact_shape, warn
 from .faceted_solid import CURVED, acceptable_solid, make_solid, shape_object
@@ -121,5 +121,5 @@ def make_kind(doc: App.Document, obj: App.DocumentObject, name: str) -> App.Docu
     for kind in kinds_of(obj):
         if kind.name == name:
             return kind.make(doc, obj)
-    names = " or ".join(kind.name for kind in kinds_of(obj))
+    names = listed([kind.name for kind in kinds_of(obj)])
     raise VolfrepError(f"'{obj.Label}' cannot be made into '{name}': choose {names}.")

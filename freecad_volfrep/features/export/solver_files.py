@@ -19,7 +19,7 @@ from freecad_volfrep.features.infill.materials import for_solver
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.sentences import report_line
 from volfrep.output.form import AXES, BEAMS, EXACT, MESH, TETRAHEDRA, Form, files, find_form
-from volfrep.util.errors import VolfrepError
+from volfrep.util.errors import VolfrepError, listed
 from volfrep.util.files import beside
 
 from .exact import (
@@ -200,7 +200,7 @@ def estimate_file(obj: App.DocumentObject, content: str) -> str:
             nearest setting that fits.
     """
     if content not in CONTENTS:
-        raise VolfrepError(f"There is no content '{content}': choose {' or '.join(CONTENTS)}.")
+        raise VolfrepError(f"There is no content '{content}': choose {listed(CONTENTS)}.")
     from volfrep.output.writer import writer_of
 
     if content == INSTANCES:

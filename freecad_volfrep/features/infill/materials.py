@@ -11,7 +11,7 @@ import FreeCAD as App
 
 from freecad_volfrep.features.properties.quantities import density_of
 from volfrep.design.parameters.table import NOTHING, OWN_MATERIAL, SOLIDS_MATERIAL
-from volfrep.util.errors import VolfrepError
+from volfrep.util.errors import VolfrepError, listed
 
 if TYPE_CHECKING:
     from volfrep.mechanics.materials import Material, SolidMaterial
@@ -69,8 +69,7 @@ def advice(obj: App.DocumentObject, radius: float) -> tuple[str, ...]:
     found = []
     if material is not None and material.processes and process.name not in material.processes:
         found.append(
-            f"{material.name} is printed by {' or '.join(material.processes)}, not by "
-            f"{process.name}."
+            f"{material.name} is printed by {listed(material.processes)}, not by {process.name}."
         )
     if 2.0 * radius < process.strut:
         found.append(

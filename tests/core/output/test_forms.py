@@ -79,10 +79,10 @@ def test_the_first_row_of_an_extension_is_the_usual_one() -> None:
 @pytest.mark.parametrize(
     ("name", "word", "message"),
     [
-        ("a.foo", None, r"the extension '\.foo' is not a known format, use \.stl or"),
+        ("a.foo", None, r"the extension '\.foo' is not a known format, use \.stl,"),
         ("a", None, "a name without an extension is not a known format"),
         ("a.stl", "beams", "its extension stands for stl"),
-        ("a.3mf", "exact", "its extension stands for mesh or both or beams"),
+        ("a.3mf", "exact", "its extension stands for mesh, both or beams"),
         ("a.xyz", "exact", r"give it the extension \.step"),
     ],
 )

@@ -186,7 +186,7 @@ def _target(values: Mapping[str, Any], used: Mapping[str, Any], say: Naming) -> 
 
 
 def _useless(name: str, need: Need, say: Naming) -> str:
-    what = " or ".join(say(other) for other in need.names)
+    what = listed([say(other) for other in need.names])
     if need.absent:
         such = "such a " * bool(need.values)
         return f"{say(name)} has no effect with {such}{what}: leave one of them out."

@@ -10,7 +10,7 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...util.errors import VolfrepError
+from ...util.errors import VolfrepError, listed
 from .parameter import REPEATED, SHAPES, Parameter
 
 if TYPE_CHECKING:
@@ -153,7 +153,7 @@ def _numbers(parameter: Parameter, items: list[Any]) -> tuple[float, ...]:
             f"'{text}' is not numbers with commas, {shape}, as {example}."
         ) from error
     if len(numbers) not in lengths:
-        wanted = " or ".join(str(length) for length in lengths)
+        wanted = listed([str(length) for length in lengths])
         raise VolfrepError(
             f"It takes {wanted} numbers with commas between them and no blanks, {shape}, such as "
             f"{example}, not {len(numbers)}."

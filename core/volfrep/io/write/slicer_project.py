@@ -29,7 +29,7 @@ import numpy as np
 from ... import __version__
 from ...design.banded_infill import HOOKED, JOINED, BandedInfill
 from ...mesh.triangle_mesh import TriangleMesh
-from ...util.errors import VolfrepError
+from ...util.errors import VolfrepError, listed
 from ...util.files import replacing
 from ...util.types import Floats
 from .numbered import Numbered, number_vertices
@@ -106,7 +106,7 @@ def write_project(
             the path cannot be written.
     """
     if slicer not in _SLICERS:
-        raise VolfrepError(f"There is no slicer '{slicer}': choose {' or '.join(_SLICERS)}.")
+        raise VolfrepError(f"There is no slicer '{slicer}': choose {listed(tuple(_SLICERS))}.")
     keys = _SLICERS[slicer]
     name = "".join(letter for letter in Path(path).stem if letter.isprintable())
     meshes = [number_vertices(mesh, path, as_text=True) for mesh in (solid, *(m for _, m in bands))]

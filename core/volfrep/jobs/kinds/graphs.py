@@ -37,7 +37,7 @@ from ...reports.result import Result, report_of
 from ...spatial.proximity import closest_points
 from ...spatial.rays import inside_points
 from ...trim.finish import finish
-from ...util.errors import VolfrepError
+from ...util.errors import VolfrepError, listed
 from ...util.numbers import plural
 from ...util.progress import Monitor, ProgressCallback
 from ...util.types import Floats, Ints
@@ -411,7 +411,7 @@ def overlap_warnings(made: GraphSurface, frame: Wireframe) -> tuple[str, ...]:
             f"{plural(len(made.overlapping), 'pair')} of struts that run into each other, as at "
             f"({x:.4g}, {y:.4g}, {z:.4g})"
         )
-    return (f"United as they overlap: {' and '.join(parts)}; thinner struts would not.",)
+    return (f"United as they overlap: {listed(parts, 'and')}; thinner struts would not.",)
 
 
 def frame_alone(spec: LatticeSpec) -> tuple[Wireframe, Placement]:

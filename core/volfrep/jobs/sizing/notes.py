@@ -13,7 +13,7 @@ from ...loads.load_cases import LoadCase
 from ...mechanics.materials import SolidMaterial
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel
-from ...util.errors import VolfrepError
+from ...util.errors import VolfrepError, listed
 from ...util.peaks import PEAKS
 from ...util.types import Floats
 from ..infill import Infill
@@ -106,7 +106,7 @@ def _motion(free: Floats, middle: Floats, size: float) -> str:
         through = middle + np.cross(axis, motion[:3]) * size / np.linalg.norm(motion[3:])
         x, y, z = (through + 0.0).round(6).tolist()
         said.append(f"turning about {_direction(axis)} through ({x:.4g}, {y:.4g}, {z:.4g})")
-    return " and ".join(said)
+    return listed(said, "and")
 
 
 def _direction(way: Floats) -> str:

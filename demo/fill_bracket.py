@@ -45,7 +45,6 @@ def main() -> None:
     """Make everything, or raise."""
     from freecad_volfrep import export_mesh, make_lattice_infill, make_solid
     from freecad_volfrep.examples import make_bracket, make_piston_rod
-    from freecad_volfrep.features.export.faceted_solid import export_step
 
     OUT.mkdir(parents=True, exist_ok=True)
 
@@ -88,7 +87,7 @@ def main() -> None:
     faceted = make_solid(doc, sample)
     doc.recompute()
     _check(doc)
-    export_step(faceted, OUT / "sample.step")
+    faceted.Shape.exportStep(str(OUT / "sample.step"))
     _say(
         f"sample: {sample.Triangles} triangles as a solid of {len(faceted.Shape.Faces)} faces "
         f"in {time.perf_counter() - start:.1f} s"

@@ -338,9 +338,10 @@ def loads(picture: str) -> None:
     """Picture the load cases of demo/bracket_loads.toml, with pyvista (see tools/setup.sh)."""
     root = Path(__file__).resolve().parents[1]
     sys.path[:0] = [str(root), str(root / ".cache" / "plot")]
+    from load_picture import load_picture
+
     from bench.parts import lug_bracket
     from volfrep.loads.load_file import read_load_cases
-    from volfrep.reports.load_picture import load_picture
 
     bracket = lug_bracket()
     cases = read_load_cases(Path(__file__).with_name("bracket_loads.toml"), bracket).cases

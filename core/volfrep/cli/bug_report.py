@@ -12,7 +12,7 @@ import os
 import platform
 import re
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Mapping
 from typing import Any
 
@@ -112,14 +112,8 @@ def _quoted(found: re.Match[str]) -> str:
     return f"{found['mark']}{source if source != path else _last(path)}{found['mark']}"
 
 
-def add_report_bug(parser: ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_run)
-    parser.add_argument("--spec", metavar="FILE", help="the specification of the job that failed")
-    parser.add_argument("--log", metavar="FILE", help="what it printed")
-
-
-def _run(options: Namespace) -> None:
+def run_report_bug(options: Namespace) -> None:
+    """Run ``volfrep report-bug``."""
     from ..util.reading import read_text, read_toml
 
     specification = log = ""

@@ -13,6 +13,7 @@ import sys
 import tempfile
 import traceback
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from importlib import import_module
 
 from ..util import memory_limit
@@ -29,62 +30,115 @@ STATUS = (
 )
 EXIT_DEFECT = 1
 EXIT_BAD_INPUT = 2
-#: The module of each command, and what it does. Modules have a function that adds what the command
-#: takes, `add_` and its name, and are imported when it is asked for.
+
+
+@dataclass(frozen=True)
+class Row:
+    """A command: what its ``--help`` begins with, and what it takes beside its options of a run.
+
+    Attributes:
+        module: has a function of the command's name after `run_`, and is imported when asked for.
+        text: what it does.
+        subject: its argument without hyphens: its place, how it is shown, and its help, or the
+            parameter whose help it has.
+        parameters: of which lattices it has parameters: "solid", "block", or none.
+        also: parameters that it has though blocks have not.
+        optional: whether the subject may be left out.
+    """
+
+    module: str
+    text: str
+    subject: tuple[str, str, str] | None = None
+    parameters: str = ""
+    also: tuple[str, ...] = ()
+    optional: bool = False
+
+
+_PART = ("part", "PART", "the closed solid, as for fill")
+_ON_PLATE = ("part", "PART", "the closed solid, as it stands on the build plate")
 COMMANDS = {
-    "fill": ("fill", "Fill a solid with a lattice under a closed skin."),
-    "block": ("fill", "Make a free-standing block of whole cells with round struts."),
-    "network": (
-        "fill", "Mesh the nodes and struts of a file, or cells laid into its mesh.",
+    "fill": Row(
+        "fill", "Fill a solid with a lattice under a closed skin.",
+        (
+            "part", "PART",
+            "the closed solid: STL, OBJ, PLY or 3MF, or with FreeCAD at hand STEP, IGES or BREP",
+        ),
+        "solid",
     ),
-    "slice": (
+    "block": Row(
+        "fill", "Make a free-standing block of whole cells with round struts.", None, "block",
+    ),
+    "network": Row(
+        "fill", "Mesh the nodes and struts of a file, or cells laid into its mesh.",
+        ("file", "FILE", "network_file"), "block",
+        ("origin", "network_thickness", "network_layers", "network_reversed"),
+    ),
+    "slice": Row(
         "slice",
         "Write a filled part in layers along z, straight from its struts: no mesh is made.",
+        _ON_PLATE, "solid",
     ),
-    "infill": (
+    "infill": Row(
         "infill",
         "Write a part with bands of a slicer's own infill, denser where a field says, as a 3MF "
         "project.",
+        _ON_PLATE,
     ),
-    "coupon": (
+    "coupon": Row(
         "coupon",
         "Make specimens of a lattice to print and measure, numbered in relief, in a folder.",
+        None, "block",
     ),
-    "cells": (
+    "cells": Row(
         "properties",
         "List the library of unit cells, or those of a catalogue's text; or take one out of it.",
+        (
+            "catalogue", "CATALOGUE",
+            "a text of cells in the format of Lumpe and Stankovic; without it, the library",
+        ),
+        optional=True,
     ),
-    "properties": (
+    "properties": Row(
         "properties", "Tell density, stiffness, strength and conductance of a cell's lattice.",
+        ("cell", "CELL", "a library cell, a TPMS such as Gyroid, or a cell's .json file"),
     ),
-    "crush": (
+    "crush": Row(
         "crush", "Crush a block of cells between plates: its plateau, and the energy it takes.",
+        ("cell", "CELL", "a library cell, or a cell's .json file"),
     ),
-    "find": (
+    "find": Row(
         "find",
         "Tell which library cells, at which radius, have a modulus or a relative density; or "
         "both, the nearest first.",
     ),
-    "size": (
+    "size": Row(
         "size", "Fill a solid with a lattice whose struts are sized for its load cases.",
+        _PART, "solid",
     ),
-    "solve": (
+    "solve": Row(
         "solve",
         "Solve a solid under load cases by voxel finite elements: a filled part or any other.",
+        _PART,
     ),
-    "homogenise": (
+    "homogenise": Row(
         "homogenise",
         "Solve a filled part, of any number of cells, as a solid of its lattice's stiffness.",
+        _PART, "solid",
     ),
-    "orient": (
+    "orient": Row(
         "orient",
         "Find the best build directions of a solid: overhang, closed rooms, height, footprint.",
+        _PART,
     ),
-    "sweep": (
+    "sweep": Row(
         "sweep", "Make many designs of a part, and a table, a page and the Pareto front of them.",
+        ("study", "STUDY.toml", "parts, what varies, what is done: docs/studies.md"),
     ),
-    "check": ("check", "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF)."),
-    "report-bug": (
+    "check": Row(
+        "check", "Tell what a reader sees in a mesh file (STL, OBJ, PLY, 3MF).",
+        ("file", "FILE", ""),
+    ),
+    "report-bug": Row(
         "bug_report", "Print what a report of a fault needs: versions, and the job.",
     ),
 }  # fmt: skip
@@ -142,9 +196,29 @@ def make_parser(asked: str | None = None) -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action=Version, nargs=0, help="show the version and exit")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for name, (module, text) in COMMANDS.items():
-        of_command = commands.add_parser(name, help=text, description=text, allow_abbrev=False)
+    for name, row in COMMANDS.items():
+        of_command = commands.add_parser(
+            name, help=row.text, description=row.text, allow_abbrev=False
+        )
         if asked in (None, name):
-            add = getattr(import_module(f".{module}", __package__), f"add_{name.replace('-', '_')}")
-            add(of_command)
+            _add(of_command, name, row)
     return parser
+
+
+def _add(parser: argparse.ArgumentParser, name: str, row: Row) -> None:
+    """Add what a command takes."""
+    from ..design.parameters import BY_NAME
+    from .parameter_options import add_parameters
+    from .run_options import add_run_options
+
+    run_it = f"run_{name.replace('-', '_')}"
+    parser.set_defaults(command=getattr(import_module(f".{row.module}", __package__), run_it))
+    if row.subject is not None:
+        place, shown, text = row.subject
+        parser.add_argument(
+            place, metavar=shown, nargs="?" if row.optional else None,
+            help=BY_NAME[text].help if text in BY_NAME else text or None,
+        )  # fmt: skip
+    add_run_options(parser, name)
+    if row.parameters:
+        add_parameters(parser, of_block=row.parameters == "block", also=row.also)

@@ -10,19 +10,12 @@ import argparse
 
 from ..util.progress_bar import drawn
 from .files import check_files
-from .parameter_options import add_parameters, specified
-from .run_options import add_run_options
+from .parameter_options import specified
 from .telling import print_rows
 
 
-def add_coupon(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_coupon)
-    add_run_options(parser, "coupon")
-    add_parameters(parser, of_block=True)
-
-
-def _coupon(given: argparse.Namespace) -> None:
+def run_coupon(given: argparse.Namespace) -> None:
+    """Run ``volfrep coupon``."""
     from ..jobs.coupons import make_coupons
     from ..mechanics.materials import find_material
     from ..output.meshes import write_mesh

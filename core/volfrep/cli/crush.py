@@ -10,18 +10,11 @@ import argparse
 
 from ..util.progress_bar import drawn
 from .files import check_files
-from .run_options import add_run_options
 from .telling import print_rows, print_warnings
 
 
-def add_crush(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_crush)
-    parser.add_argument("cell", metavar="CELL", help="a library cell, or a cell's .json file")
-    add_run_options(parser, "crush")
-
-
-def _crush(given: argparse.Namespace) -> None:
+def run_crush(given: argparse.Namespace) -> None:
+    """Run ``volfrep crush``."""
     from ..jobs.crushing import crush
     from ..util.files import replacing, write_json
 

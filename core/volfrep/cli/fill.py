@@ -15,7 +15,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..design.parameters import BY_NAME
 from ..util.progress_bar import drawn
 from .files import read_part
 from .options import (
@@ -25,8 +24,6 @@ from .options import (
     fill_options,
     network_options,
 )
-from .parameter_options import add_parameters
-from .run_options import add_run_options
 from .telling import print_rows, print_summary, print_warnings, write_report
 
 if TYPE_CHECKING:
@@ -42,34 +39,6 @@ if TYPE_CHECKING:
 
 #: Fewer triangles than these are cut in this process: others take longer to start.
 WORTH_WORKERS = 600_000
-
-
-def add_fill(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_fill)
-    parser.add_argument(
-        "part",
-        metavar="PART",
-        help="the closed solid: STL, OBJ, PLY or 3MF, or with FreeCAD at hand STEP, IGES or BREP",
-    )
-    add_run_options(parser, "fill")
-    add_parameters(parser)
-
-
-def add_block(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_block)
-    add_run_options(parser, "block")
-    add_parameters(parser, of_block=True)
-
-
-def add_network(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_network)
-    parser.add_argument("file", metavar="FILE", help=BY_NAME["network_file"].help)
-    add_run_options(parser, "network")
-    laid = ("origin", "network_thickness", "network_layers", "network_reversed")
-    add_parameters(parser, of_block=True, also=laid)
 
 
 @contextmanager
@@ -102,7 +71,8 @@ def _warn_lost(ending: Ending) -> None:
     print(f"volfrep: A worker has ended {ending}: the others go on.", file=sys.stderr, flush=True)
 
 
-def _fill(given: argparse.Namespace) -> None:
+def run_fill(given: argparse.Namespace) -> None:
+    """Run ``volfrep fill``."""
     options = fill_options(given)
     if options.bare_surface:
         _fill_surface(options)
@@ -201,7 +171,8 @@ def _make_within(
     _make(made, options, start, before)
 
 
-def _block(given: argparse.Namespace) -> None:
+def run_block(given: argparse.Namespace) -> None:
+    """Run ``volfrep block``."""
     options = block_options(given)
 
     from ..design.forecast import forecast_block
@@ -254,7 +225,8 @@ def _block(given: argparse.Namespace) -> None:
         _tell(dataclasses.replace(report, stages={**before, **report.stages}), options)
 
 
-def _network(given: argparse.Namespace) -> None:
+def run_network(given: argparse.Namespace) -> None:
+    """Run ``volfrep network``."""
     options = network_options(given)
 
     from ..output.sources import FreeGraph

@@ -10,16 +10,10 @@ import argparse
 
 from ..util.errors import VolfrepError
 from .files import check_files
-from .run_options import add_run_options
 
 
-def add_find(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_find)
-    add_run_options(parser, "find")
-
-
-def _find(given: argparse.Namespace) -> None:
+def run_find(given: argparse.Namespace) -> None:
+    """Run ``volfrep find``."""
     from ..jobs.figures.find import direction_of, error_along, find_lattices
     from ..util.files import write_json
 

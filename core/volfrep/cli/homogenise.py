@@ -12,21 +12,13 @@ from pathlib import Path
 from ..util.errors import VolfrepError
 from ..util.progress_bar import drawn
 from .files import check_files, read_part
-from .parameter_options import add_parameters, specified
-from .run_options import add_run_options
+from .parameter_options import specified
 from .size import EXIT_NOT_HELD
 from .telling import print_rows, print_warnings
 
 
-def add_homogenise(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_homogenise)
-    parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
-    add_run_options(parser, "homogenise")
-    add_parameters(parser)
-
-
-def _homogenise(options: argparse.Namespace) -> int | None:
+def run_homogenise(options: argparse.Namespace) -> int | None:
+    """Run ``volfrep homogenise``."""
     from ..design.parameters.spec_file import write_values
     from ..jobs.homogenised import check_homogenised_file, homogenise_part
     from ..jobs.sized_field import (

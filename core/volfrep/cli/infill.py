@@ -12,7 +12,6 @@ from pathlib import Path
 from ..util.errors import VolfrepError
 from ..util.progress_bar import drawn
 from .files import check_files
-from .run_options import add_run_options
 from .telling import print_rows
 
 #: Options that are fields of `BandedInfill` by the same name.
@@ -22,16 +21,8 @@ _FIELDS = (
 )  # fmt: skip
 
 
-def add_infill(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_infill)
-    parser.add_argument(
-        "part", metavar="PART", help="the closed solid, as it stands on the build plate"
-    )
-    add_run_options(parser, "infill")
-
-
-def _infill(given: argparse.Namespace) -> None:
+def run_infill(given: argparse.Namespace) -> None:
+    """Run ``volfrep infill``."""
     from ..design.banded_infill import BandedInfill
     from ..design.spec import LatticeSpec
     from ..io.solid import read_solid

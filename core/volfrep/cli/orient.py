@@ -12,18 +12,11 @@ from pathlib import Path
 from ..util.errors import VolfrepError
 from ..util.progress_bar import drawn
 from .files import check_files
-from .run_options import add_run_options
 from .telling import print_rows
 
 
-def add_orient(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_orient)
-    parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
-    add_run_options(parser, "orient")
-
-
-def _orient(options: argparse.Namespace) -> None:
+def run_orient(options: argparse.Namespace) -> None:
+    """Run ``volfrep orient``."""
     from ..io.solid import read_solid
     from ..output.meshes import mesh_form, write_mesh
     from ..reports.orientation import inclination_of, orient

@@ -11,35 +11,14 @@ import sys
 
 from ..util.errors import VolfrepError
 from .files import check_files
-from .run_options import add_run_options
 from .telling import print_rows
 
 #: What takes longer is told before, s.
 LONG = 10.0
 
 
-def add_cells(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_cells)
-    parser.add_argument(
-        "catalogue", metavar="CATALOGUE", nargs="?",
-        help="a text of cells in the format of Lumpe and Stankovic; without it, the library",
-    )  # fmt: skip
-    add_run_options(parser, "cells")
-
-
-def add_properties(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_properties)
-    parser.add_argument(
-        "cell",
-        metavar="CELL",
-        help="a library cell, a TPMS such as Gyroid, or a cell's .json file",
-    )
-    add_run_options(parser, "properties")
-
-
-def _cells(options: argparse.Namespace) -> None:
+def run_cells(options: argparse.Namespace) -> None:
+    """Run ``volfrep cells``."""
     if options.catalogue is None:
         if options.entry is not None or options.output is not None:
             raise VolfrepError("--entry and --output are for a cell of a catalogue: name its file.")
@@ -98,7 +77,8 @@ def _expected(seconds: float) -> None:
         print(f"Expected: about {duration(seconds)} more.", file=sys.stderr, flush=True)
 
 
-def _properties(options: argparse.Namespace) -> None:
+def run_properties(options: argparse.Namespace) -> None:
+    """Run ``volfrep properties``."""
     from ..jobs.figures.properties import lattice_properties
     from ..util.files import write_json
 

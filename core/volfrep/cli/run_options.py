@@ -657,6 +657,11 @@ RUN_OPTIONS = (
         (*LATTICE, "infill", "coupon", "crush", "solve", "homogenise", "orient", "sweep"),
         "print nothing but errors",
     ),
+    RunOption(
+        "spec", ("report-bug",), "the specification of the job that failed", "FILE",
+        reads="specification",
+    ),
+    RunOption("log", ("report-bug",), "what it printed", "FILE"),
 )  # fmt: skip
 #: Arguments without hyphens, and options of the table of parameters, that name files which are
 #: read; what the command calls them.

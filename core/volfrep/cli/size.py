@@ -24,8 +24,6 @@ from ..util.progress import ProgressCallback
 from ..util.progress_bar import drawn
 from .files import read_part
 from .options import SizeOptions, size_options
-from .parameter_options import add_parameters
-from .run_options import add_run_options
 from .solve import tell_expected
 from .telling import print_rows, print_summary, print_warnings
 
@@ -38,15 +36,8 @@ if TYPE_CHECKING:
 EXIT_NOT_HELD = 3
 
 
-def add_size(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_size)
-    parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
-    add_run_options(parser, "size")
-    add_parameters(parser)
-
-
-def _size(given: argparse.Namespace) -> int | None:
+def run_size(given: argparse.Namespace) -> int | None:
+    """Run ``volfrep size``."""
     options = size_options(given)
 
     from ..jobs.infill import Infill

@@ -11,22 +11,11 @@ import argparse
 from ..util.progress_bar import drawn
 from .files import read_part
 from .options import slice_options
-from .parameter_options import add_parameters
-from .run_options import add_run_options
 from .telling import print_rows, print_warnings
 
 
-def add_slice(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_slice)
-    parser.add_argument(
-        "part", metavar="PART", help="the closed solid, as it stands on the build plate"
-    )
-    add_run_options(parser, "slice")
-    add_parameters(parser)
-
-
-def _slice(given: argparse.Namespace) -> None:
+def run_slice(given: argparse.Namespace) -> None:
+    """Run ``volfrep slice``."""
     options = slice_options(given)
 
     from ..jobs.slices import write_layers

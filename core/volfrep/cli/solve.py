@@ -13,18 +13,11 @@ from pathlib import Path
 
 from ..util.progress_bar import drawn
 from .files import check_files
-from .run_options import add_run_options
 from .telling import print_rows, print_warnings
 
 
-def add_solve(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_solve)
-    parser.add_argument("part", metavar="PART", help="the closed solid, as for fill")
-    add_run_options(parser, "solve")
-
-
-def _solve(options: argparse.Namespace) -> None:
+def run_solve(options: argparse.Namespace) -> None:
+    """Run ``volfrep solve``."""
     from ..io.solid import read_solid
     from ..jobs.solving import check_result_file, solve_solid
     from ..loads.load_file import read_load_cases

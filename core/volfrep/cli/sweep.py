@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 from ..util.numbers import plural
 from ..util.progress_bar import drawn
 from .files import check_files
-from .run_options import add_run_options
 from .telling import print_rows, print_warnings
 
 if TYPE_CHECKING:
@@ -23,16 +22,8 @@ if TYPE_CHECKING:
 _MOST_SENTENCES = 5
 
 
-def add_sweep(parser: argparse.ArgumentParser) -> None:
-    """Add what the command takes."""
-    parser.set_defaults(command=_sweep)
-    parser.add_argument(
-        "study", metavar="STUDY.toml", help="parts, what varies, what is done: docs/studies.md"
-    )
-    add_run_options(parser, "sweep")
-
-
-def _sweep(options: argparse.Namespace) -> None:
+def run_sweep(options: argparse.Namespace) -> None:
+    """Run ``volfrep sweep``."""
     from ..studies.study import read_study
     from ..studies.sweep import sweep
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..design.cells import NODE_TOLERANCE, UnitCell, joint_radius
 from ..mesh.triangle_mesh import TriangleMesh
-from ..util.frames import make_frame
+from ..util.packages import make_frame
 from ..util.types import Bools, Floats, Ints
 
 if TYPE_CHECKING:

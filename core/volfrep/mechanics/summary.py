@@ -16,7 +16,7 @@ from ..design.kinds.strut_cells import MOST_CROSSING, crossing_struts
 from ..design.spec_parts import Grid, Struts
 from ..util.arguments import three_numbers
 from ..util.errors import VolfrepError
-from ..util.frames import make_frame
+from ..util.packages import make_frame
 from ..util.showing import Shown
 from ..util.types import Floats
 from .conductance import conductance

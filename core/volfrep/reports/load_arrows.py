@@ -13,6 +13,8 @@ from ..loads.nodal_loads import Body, share_of
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.types import Floats
 
+#: Colours of what is held and of what is loaded.
+HELD, LOADED = "#2f6fd0", "#e8792b"
 #: An arrow is this part of the part's size long.
 ARROW = 0.22
 _SMALL = 1e-12

@@ -13,8 +13,7 @@ from ..loads.regions import Region
 from ..mesh import remesh
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.types import Bools, Floats
-from .load_arrows import ARROW, Arrow, arrows_of, solid_body
-from .load_picture import HELD, LOADED
+from .load_arrows import ARROW, HELD, LOADED, Arrow, arrows_of, solid_body
 
 #: Of the part on the drawing, px; what stays free about it; half a figure's width and height.
 _SIDE, _BORDER, _FIGURE = 300.0, 10.0, (45.0, 16.0)

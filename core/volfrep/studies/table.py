@@ -17,7 +17,7 @@ import numpy as np
 
 from ..util.errors import VolfrepError
 from ..util.files import replacing
-from ..util.frames import make_frame
+from ..util.packages import make_frame
 from ..util.types import Floats
 from .actions import ACTIONS
 from .designs import Design

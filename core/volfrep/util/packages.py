@@ -3,10 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .errors import VolfrepError
+
+if TYPE_CHECKING:
+    import pandas
 
 #: What pip is asked for, where that is not the package's own name.
 _BY_PIP = {"distributed": "volfrep[dask]"}
@@ -56,3 +60,13 @@ and start again.
             f"{purpose} needs the Python package {root}, which is not installed: install it with "
             f"the command  {command or install_command(root)}  {then}."
         ) from error
+
+
+def make_frame(columns: Mapping[str, Any], index: Sequence[str] | None = None) -> pandas.DataFrame:
+    """A frame of columns by name.
+
+    Raises:
+        MissingPackage: pandas is missing.
+    """
+    frame: pandas.DataFrame = package("pandas", "A table as a frame").DataFrame
+    return frame(dict(columns), index=index)

@@ -3,9 +3,7 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import FreeCAD as App
@@ -15,9 +13,6 @@ from freecad_volfrep.features.infill.freshness import tell_stale
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
-from volfrep.util.files import check_writable, not_written
-
-from .input_files import refuse_inputs
 
 #: More triangles than this are refused unless the caller raises the limit.
 DEFAULT_LIMIT = 100_000
@@ -141,33 +136,3 @@ def shape_object(
     solid.Shape = shape
     solid.purgeTouched()
     return solid
-
-
-def export_step(solid: App.DocumentObject, path: str | os.PathLike[str]) -> None:
-    """Write the solid as STEP, without the curves that plane faces can do without.
-
-    A fifth of the size and a third of the time of FreeCAD 0.20's own setting.
-
-    Raises:
-        VolfrepError: the file cannot be written, or is one that the solid is made of.
-    """
-    import Part
-
-    target = check_writable(path)
-    refuse_inputs(path, solid)
-    unfinished = target.with_name(f".{target.stem}.{os.getpid()}.step")
-    mode = "write.surfacecurve.mode"
-    before = Part.getStaticValue(mode) if hasattr(Part, "getStaticValue") else None
-    Part.setStaticValue(mode, 0)
-    try:
-        Part.export([solid], str(unfinished))
-        if not unfinished.is_file():
-            raise VolfrepError(f"FreeCAD could not write '{target}': see the report view.")
-        try:
-            os.replace(unfinished, target)
-        except OSError as error:
-            raise not_written(target, error) from error
-    finally:
-        if before is not None:
-            Part.setStaticValue(mode, before)
-        Path(unfinished).unlink(missing_ok=True)

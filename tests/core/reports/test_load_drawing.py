@@ -11,8 +11,8 @@ import pytest
 import samples
 from volfrep.loads.load_cases import Force, LoadCase, Moment, Support
 from volfrep.loads.regions import InPlane
+from volfrep.reports.load_arrows import HELD, LOADED
 from volfrep.reports.load_drawing import load_drawing
-from volfrep.reports.load_picture import HELD, LOADED
 
 SVG = "{http://www.w3.org/2000/svg}"
 

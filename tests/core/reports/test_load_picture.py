@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from bench.parts import lug_bracket
+from demo.load_picture import load_picture
 from volfrep.loads.load_cases import Force, LoadCase, Support
 from volfrep.loads.load_file import read_load_cases
 from volfrep.loads.nodal_loads import nodal_case
 from volfrep.loads.regions import InPlane, NearPoint
 from volfrep.reports.load_arrows import solid_body
-from volfrep.reports.load_picture import load_picture
 from volfrep.util.errors import VolfrepError
 
 LOADS = Path(__file__).resolve().parents[3] / "demo" / "bracket_loads.toml"

@@ -8,16 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from ..loads.load_cases import LoadCase
-from ..loads.nodal_loads import Body, nodes_in
-from ..loads.regions import Region
-from ..mesh.remesh import facet_normals
-from ..mesh.triangle_mesh import TriangleMesh
-from .load_arrows import ARROW, Arrow, arrows_of, solid_body
-from .picture import SIZE, add_surface, new_stage, show_stage
+from volfrep.loads.load_cases import LoadCase
+from volfrep.loads.nodal_loads import Body, nodes_in
+from volfrep.loads.regions import Region
+from volfrep.mesh.remesh import facet_normals
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.reports.load_arrows import ARROW, HELD, LOADED, Arrow, arrows_of, solid_body
+from volfrep.reports.picture import SIZE, add_surface, new_stage, show_stage
 
-#: The part, what is held, what is loaded.
-PART, HELD, LOADED = "#c9d0da", "#2f6fd0", "#e8792b"
+PART = "#c9d0da"
 #: Facets are this part of the part's size.
 FACET = 0.02
 #: What is coloured lies this part of the size above the part.

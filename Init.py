@@ -5,7 +5,7 @@ Scripts import ``from freecad.volfrep import make_lattice_infill`` from then on.
 time is done.
 """
 
-from freecad_volfrep.held_meshes import hold_meshes
+from freecad_volfrep.mesh_references import hold_meshes
 from freecad_volfrep.revival import watch_documents
 
 watch_documents()

@@ -6,14 +6,14 @@ from __future__ import annotations
 import sys
 from typing import NoReturn
 
-from .cli import process
+from .cli import interrupts
 from .util.version import describe
 
 
 def main() -> NoReturn:
     """Run the command of this process's arguments and exit with its code."""
     try:
-        process.prepare()
+        interrupts.prepare()
         if sys.argv[1:] == ["--version"]:  # without the options of all commands
             print(describe())
             raise SystemExit(0)
@@ -23,8 +23,8 @@ def main() -> NoReturn:
     except SystemExit as end:  # of --help and --version
         code = int(end.code or 0)
     except KeyboardInterrupt:
-        code = process.say_interrupted()
-    process.leave(code)
+        code = interrupts.say_interrupted()
+    interrupts.leave(code)
     raise AssertionError("the process has ended")
 
 

@@ -20,7 +20,7 @@ from volfrep.util.errors import VolfrepError
 from volfrep.util.files import replacing
 from volfrep.util.progress import Monitor
 
-from .exact import exact_lattice, plain_curves, silence
+from .exact import exact_lattice, silence, without_surface_curves
 from .faceted import faceted_solid
 from .solids import parent_placement, resolve_base
 
@@ -136,7 +136,7 @@ def write_shape(shape: Part.Shape, path: str | os.PathLike[str]) -> None:
     with replacing(path) as file:
         unfinished = Path(file.name).with_suffix(".step")
         try:
-            with plain_curves(), silence():
+            with without_surface_curves(), silence():
                 shape.exportStep(str(unfinished))
             file.write(unfinished.read_bytes())
         finally:

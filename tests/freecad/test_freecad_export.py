@@ -11,7 +11,7 @@ import pytest
 
 from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill, make_solid
-from freecad_volfrep.bridge.exact import plain_curves
+from freecad_volfrep.bridge.exact import without_surface_curves
 from freecad_volfrep.bridge.faceted import faceted_solid
 from freecad_volfrep.bridge.meshes import from_freecad, to_freecad, with_neighbours
 from freecad_volfrep.features.export.faceted_solid import predict_solid
@@ -200,7 +200,7 @@ def test_solid_and_step(doc, box, tmp_path):
     assert len(solid.Shape.Faces) == infill.Triangles
     assert solid.Shape.Volume == pytest.approx(infill.Volume.Value, rel=1e-4)
     path = tmp_path / "part.step"
-    with plain_curves():
+    with without_surface_curves():
         solid.Shape.exportStep(str(path))
     assert path.stat().st_size / 1e6 == pytest.approx(prediction.step_mb, rel=0.3)
     assert [file.name for file in tmp_path.iterdir()] == ["part.step"]

@@ -19,7 +19,7 @@ from importlib import import_module
 from ..util import memory_limit
 from ..util.errors import VolfrepError
 from ..util.files import keeping_inputs
-from . import process
+from . import interrupts
 from .parser import Parser, Version, refuse_old, with_current_options
 
 #: A command ends with what it returns; None is 0.
@@ -158,10 +158,10 @@ def run(arguments: Sequence[str]) -> int:
         print(f"volfrep: {error}", file=sys.stderr)
         return EXIT_BAD_INPUT
     except KeyboardInterrupt:
-        return process.say_interrupted()
+        return interrupts.say_interrupted()
     except Exception as error:  # whatever it is, the user gets a sentence
-        if process.is_interrupted():
-            return process.say_interrupted()
+        if interrupts.is_interrupted():
+            return interrupts.say_interrupted()
         if memory_limit.is_want_of_memory(error):
             print(f"volfrep: {memory_limit.not_enough()}", file=sys.stderr)
             return EXIT_BAD_INPUT

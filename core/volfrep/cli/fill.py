@@ -94,7 +94,7 @@ def run_fill(given: argparse.Namespace) -> None:
     rough = lattice_kind(spec).roughly_solved(solid)
     if meshed and spec.output != "domain":
         rough.kind.refuse_crossing()
-    expected = forecast_fill(solid, rough, streamed=options.is_plain)
+    expected = forecast_fill(solid, rough, streamed=options.is_file_alone)
     if not options.quiet:
         print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
     is_cut = meshed and spec.kind.is_cut_in_groups and spec.output != "domain"
@@ -102,7 +102,7 @@ def run_fill(given: argparse.Namespace) -> None:
     with _workers(options, cut) as executor, drawn(options.quiet) as progress:
         made = solve_target(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
-            streamed=options.is_plain,
+            streamed=options.is_file_alone,
         )  # fmt: skip
         if not options.form.octants_by:  # which they would help to write
             made.ahead = lambda _: let_go(executor)  # all groups are cut
@@ -192,7 +192,7 @@ def run_block(given: argparse.Namespace) -> None:
                 {},
             )
         return
-    streamed = options.is_plain and bool(options.form.octants_by)
+    streamed = options.is_file_alone and bool(options.form.octants_by)
 
     def expect(spec: LatticeSpec) -> None:
         spec.kind.refuse_crossing()

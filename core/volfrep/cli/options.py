@@ -96,7 +96,7 @@ class MeshOptions(LatticeOptions):
     notes: tuple[str, ...]
 
     @property
-    def is_plain(self) -> bool:
+    def is_file_alone(self) -> bool:
         """Whether nothing but a file is wanted, which holds a surface without a mesh of it all."""
         return self.form.streamed and self.process is None and self.picture is None
 

@@ -102,7 +102,7 @@ class UnitCell:
         return {"cell": self.source if own else self.name, "cell_values": self.values}
 
     @property
-    def is_plain(self) -> bool:
+    def is_uniform_cube(self) -> bool:
         """Whether it is a cube with struts of one radius, of which octants are made."""
         return self.edges == (1.0, 1.0, 1.0) and not len(self.widths)
 

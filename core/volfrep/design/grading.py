@@ -236,16 +236,16 @@ def as_tuples(part: object, *names: str) -> None:
             object.__setattr__(part, name, tuple(value))
 
 
-def as_plain(value: Any) -> Any:
+def as_json(value: Any) -> Any:
     """A grading as plain JSON values, which files hold that are handed on: no folders."""
     if isinstance(value, Profile):
         return value.as_dict()
     if isinstance(value, PointField):
         return f"{len(value.values)} points" + f" of {Path(value.source).name}" * bool(value.source)
-    if hasattr(value, "as_plain"):
-        return value.as_plain()
+    if hasattr(value, "as_json"):
+        return value.as_json()
     if hasattr(value, "__dataclass_fields__"):
-        return {name: as_plain(getattr(value, name)) for name in value.__dataclass_fields__}
+        return {name: as_json(getattr(value, name)) for name in value.__dataclass_fields__}
     if isinstance(value, tuple):
-        return [as_plain(item) for item in value]
+        return [as_json(item) for item in value]
     return value

@@ -114,7 +114,7 @@ class OpenPatch:
         """
         return np.unique(np.round(self.corners.reshape(-1, 3), 6) + 0.0, axis=0), len(self.corners)
 
-    def as_plain(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Any]:
         """What tells one patch from another, as plain JSON values."""
         digest = hashlib.blake2b(np.round(self.corners, 6).tobytes(), digest_size=8)
         return {"facets": len(self.corners), "digest": digest.hexdigest()}

@@ -76,7 +76,7 @@ class SampledField:
         found = map_coordinates(self.values, at.T, order=1, mode="nearest")
         return np.clip(np.asarray(found, np.float64), *self.range)
 
-    def as_plain(self) -> str:
+    def as_json(self) -> str:
         """It in a few words."""
         size = " x ".join(str(count) for count in self.values.shape)
         return f"{self.source or 'a function'}, sampled on {size} points"

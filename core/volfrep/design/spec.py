@@ -11,7 +11,7 @@ from ..util.content import digest_of
 from ..util.errors import VolfrepError, brief
 from ..util.numbers import number
 from .cells import UnitCell, any_cell
-from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, as_plain
+from .grading import CellMap, Orientation, RadiusGrading, SizeGrading, as_json
 from .kinds import Kind, kind_of
 from .openings import DrainHoles
 from .sampled_field import SampledField
@@ -228,9 +228,9 @@ class LatticeSpec(SpecFields):
 
     def as_dict(self) -> dict[str, Any]:
         """The specification as plain JSON values."""
-        values = {name: as_plain(getattr(self, name)) for name in self.__dataclass_fields__}
+        values = {name: as_json(getattr(self, name)) for name in self.__dataclass_fields__}
         values["cell"] = self.cell_name
         del values["wall"]
         if self.skin_field is None:  # kept reports do not have it
             del values["skin_field"]
-        return values | self.kind.as_plain()
+        return values | self.kind.as_json()

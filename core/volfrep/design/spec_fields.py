@@ -237,7 +237,7 @@ class Kind(ABC):
         """Fields that count for nothing, with the values that they are counted as."""
         return {"wall": TpmsSheet()}
 
-    def as_plain(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Any]:
         """What is said of it beside the specification's fields, as plain JSON values."""
         return {}
 

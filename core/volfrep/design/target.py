@@ -73,7 +73,7 @@ class Target:
             return self.value * 1000.0 / density - skin
         return self.value * domain
 
-    def as_plain(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Any]:
         """The target as plain JSON values."""
         result: dict[str, Any] = {"aim": self.aim, "value": self.value}
         if self.direction is not None:

@@ -154,7 +154,7 @@ def joint_pieces(
     balls, ball_node = _ball_points(frame, halves, of_node, sides)
     free = np.concatenate([local, balls])
     free_node = np.concatenate([arm_node, ball_node])
-    kept = _apart(free, free_node, frame.joint_radii, _SAME * 2.0 * np.pi / sides)
+    kept = _distinct(free, free_node, frame.joint_radii, _SAME * 2.0 * np.pi / sides)
     free, free_node = free[kept], free_node[kept]
 
     ring_number = (taking % count)[:, None] * sides + np.arange(sides)
@@ -252,7 +252,7 @@ def _ball_points(
     return radius[node, None] * ways[way], node
 
 
-def _apart(points: Floats, node: Ints, balls: Floats, edge: float) -> Bools:
+def _distinct(points: Floats, node: Ints, balls: Floats, edge: float) -> Bools:
     """Which points stay when those of a node that nearly coincide are made one.
 
     Args:

@@ -93,7 +93,7 @@ class Infill:
             solid, spec, monitor, cache or StageCache(), executor, streamed=streamed
         )
         self.filling = kind.fill(self.part_domain)
-        self._held_struts: dict[bool, KeptStruts] = {}
+        self._kept_struts: dict[bool, KeptStruts] = {}
         self.ahead: Ahead | None = None
 
     @property
@@ -177,7 +177,7 @@ class Infill:
         if self.spec.skin is None:
             return self.lattice_beams
         self._refuse_beams()
-        kept, drains = self._held(is_cut=True), self.spec.drains
+        kept, drains = self._kept(is_cut=True), self.spec.drains
         struts = kept.without_loose(self.struts)
         made = part_beams(self.solid, self.cavity, struts, self.spec.skin, drains, self.monitor)
         warnings = self._beam_warnings + made.warnings
@@ -187,7 +187,7 @@ class Infill:
     def lattice_beams(self) -> BeamModel:
         """The lattice as beams, without a skin."""
         self._refuse_beams()
-        kept, clip_at = self._held(is_cut=self.spec.ending.is_trimmed), None
+        kept, clip_at = self._kept(is_cut=self.spec.ending.is_trimmed), None
         struts = kept.without_loose(self.struts)
         if self.spec.ending.is_trimmed:
             clip_at = self.solid if self.spec.skin is None else self.cavity
@@ -200,12 +200,12 @@ class Infill:
         self.kind.refuse_beams()
         is_cut = self.placement.is_cut
         boundary = self.cavity if is_cut else None
-        return axes_of(self.struts, boundary, self._held(is_cut=is_cut), self.domain.openings)
+        return axes_of(self.struts, boundary, self._kept(is_cut=is_cut), self.domain.openings)
 
     @property
     def staying(self) -> Bools:
         """(m,) which of the struts the part has: those that hang on something."""
-        return self._held(is_cut=self.placement.is_cut).whole(self.struts)
+        return self._kept(is_cut=self.placement.is_cut).whole(self.struts)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -220,16 +220,16 @@ class Infill:
         self.kind.refuse_beams()
         refuse_fillets(self.spec.struts)
 
-    def _held(self, *, is_cut: bool) -> KeptStruts:
+    def _kept(self, *, is_cut: bool) -> KeptStruts:
         """Which pieces of the struts stay, where a wall cuts them or where they are whole."""
-        if is_cut not in self._held_struts:
+        if is_cut not in self._kept_struts:
             boundary = self.cavity if is_cut else None
-            self._held_struts[is_cut] = find_kept_struts(
+            self._kept_struts[is_cut] = find_kept_struts(
                 self.struts, boundary, has_skin=self.spec.skin is not None,
                 bodies=max(1, inspect(self.solid).quality.bodies),
                 openings=self.domain.openings, keep_all=self.spec.keep_pieces,
             )  # fmt: skip
-        return self._held_struts[is_cut]
+        return self._kept_struts[is_cut]
 
     def _reported(self, output: str, cleared: Cleared, drained: Drained | None = None) -> Result:
         """A mesh with the figures of what it is and of how it was made."""
@@ -240,7 +240,7 @@ class Infill:
         else:
             with self.monitor.stage("check", 1.0, 1.0):
                 surface, quality, notes = finish(
-                    surface, quality, self.monitor, self.filling.is_moved, least=cleared.least
+                    surface, quality, self.monitor, self.filling.is_deformed, least=cleared.least
                 )
             warnings += self.filling.notes + notes
         if output == "lattice":

@@ -24,7 +24,7 @@ from ..octants.octant import Octant, OctantGrid
 from ..util.linalg import along
 from ..util.types import Floats, Ints
 from .assembly import Layout, box, numbers_at
-from .octant_kinds import GENERIC, MovedOctants, OctantKind, look_at
+from .octant_kinds import GENERIC, DeformedOctants, OctantKind, look_at
 
 _NONE = np.zeros(0, np.int64)
 #: Facets whose heights are all above so many steps of single precision keep their corners in it.
@@ -97,7 +97,7 @@ class CertifiedPieces:
 
 
 def certify_pieces(
-    layout: Layout, centre: Floats, moved: MovedOctants | None = None
+    layout: Layout, centre: Floats, moved: DeformedOctants | None = None
 ) -> CertifiedPieces:
     """The certificate of the octants of a layout whose surface may go on where octants are missing.
 

@@ -114,7 +114,7 @@ class Measured:
 
 
 @dataclass(frozen=True, eq=False)
-class MovedOctants:
+class DeformedOctants:
     """Measures of octants whose vertices were moved.
 
     Attributes:

@@ -114,18 +114,18 @@ def load_cases_of(entries: Mapping[str, Any], solid: TriangleMesh | None = None)
         VolfrepError: the first entry that makes no sense, by its place.
     """
     try:
-        return _Reader(Path(), solid).cases(_plain(entries))
+        return _Reader(Path(), solid).cases(_as_json(entries))
     except VolfrepError as error:
         raise VolfrepError(f"Loads, {error}") from error
 
 
-def _plain(value: Any) -> Any:
+def _as_json(value: Any) -> Any:
     """Tuples and arrays as lists, numpy's numbers as Python's."""
     if isinstance(value, Mapping):
-        return {str(name): _plain(item) for name, item in value.items()}
+        return {str(name): _as_json(item) for name, item in value.items()}
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
-    return [_plain(item) for item in value] if isinstance(value, (list, tuple)) else value
+    return [_as_json(item) for item in value] if isinstance(value, (list, tuple)) else value
 
 
 class _Reader:

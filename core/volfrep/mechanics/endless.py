@@ -78,7 +78,7 @@ def refuse_odd(cell: UnitCell) -> None:
     Raises:
         VolfrepError: it is one.
     """
-    if not cell.is_plain:
+    if not cell.is_uniform_cube:
         raise VolfrepError(
             f"Properties, joints and targets are of cells that are cubes with struts of one "
             f"radius, which '{cell.name}' is not: leave out what asks for them, or choose another "

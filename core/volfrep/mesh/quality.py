@@ -20,7 +20,7 @@ from ..util.hands import Hands, Held, Shared
 from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import threads
-from .topology import edge_uses, moved_vertices, touching
+from .topology import displaced_vertices, edge_uses, touching
 from .triangle_mesh import TriangleMesh
 
 T = TypeVar("T")
@@ -235,7 +235,7 @@ def quality_after_moves(
     Returns:
         None where a shell may have been turned inside out.
     """
-    rows = np.flatnonzero(touching(moved_vertices(before, after), before.triangles))
+    rows = np.flatnonzero(touching(displaced_vertices(before, after), before.triangles))
     if not len(rows):
         return replace(quality, bounds=bounds)
     used, local = np.unique(before.triangles[rows], return_inverse=True)

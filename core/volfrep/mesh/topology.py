@@ -71,7 +71,7 @@ def vertices_of(triangles: NDArray[Any], count: int) -> Bools:
     return used
 
 
-def moved_vertices(before: TriangleMesh, after: TriangleMesh) -> Bools:
+def displaced_vertices(before: TriangleMesh, after: TriangleMesh) -> Bools:
     """(n,) which vertices of a mesh are elsewhere in one that has as many."""
     moved = np.zeros(len(before.vertices), bool)
     # All coordinates in one row: numpy is slow at reducing many short rows.
@@ -79,7 +79,7 @@ def moved_vertices(before: TriangleMesh, after: TriangleMesh) -> Bools:
     return moved
 
 
-def beside(chosen: Bools, triangles: NDArray[Any], count: int) -> Bools:
+def adjacent(chosen: Bools, triangles: NDArray[Any], count: int) -> Bools:
     """(m,) which triangles share one of `count` vertices with a chosen triangle, (m,) bool."""
     return touching(vertices_of(triangles[chosen], count), triangles)
 

@@ -20,7 +20,15 @@ from scipy.spatial import cKDTree
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
 from . import remesh
-from .topology import among_edges, beside, edge_keys, numbered, open_vertices, touching, vertices_of
+from .topology import (
+    adjacent,
+    among_edges,
+    edge_keys,
+    numbered,
+    open_vertices,
+    touching,
+    vertices_of,
+)
 from .triangle_mesh import TriangleMesh, compact
 
 #: Facets with angles below or above these, degrees, are bad.
@@ -117,7 +125,7 @@ def mend_bad_facets(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -
             break
         part = bad
         for _ in range(RINGS):
-            part = beside(part, triangles, len(points))
+            part = adjacent(part, triangles, len(points))
         used, local = numbered(triangles[part], len(points))
         moved, piece = _mended(points[used], local, tolerance, shortest, done % 2 == 1)
         row = np.concatenate([used, len(points) + np.arange(len(moved) - len(used))])
@@ -203,7 +211,7 @@ def _collapsed(
     if not bad.any():
         return points, triangles
     at_border = open_vertices(triangles, len(points))
-    part = beside(bad, triangles, len(points))
+    part = adjacent(bad, triangles, len(points))
     used, local = numbered(triangles[part], len(points))
     rules, longest = _rules(points[used], local, bad[part], at_border[used], tolerance, dearer)
     moved, some, renumber = remesh.collapse(points[used], local, rules, longest, np.inf)
@@ -313,7 +321,7 @@ def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> Ints:
         poor[:] = False
         poor[rows[(some != triangles[rows]).any(axis=1)]] = True
         triangles[rows] = some
-        rows = np.flatnonzero(beside(poor, triangles, len(points)))
+        rows = np.flatnonzero(adjacent(poor, triangles, len(points)))
         poor[:] = False
         poor[rows] = _least_angles(points[triangles[rows]]) < WANTED_ANGLE
     return triangles

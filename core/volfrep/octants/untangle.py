@@ -53,7 +53,7 @@ def crossing_facets(surface: PinnedMesh, exact: bool = True, pieces: Bools | Non
     triangles = surface.triangles[look].astype(np.int32)
     if not exact:
         everywhere = np.ones(len(triangles), bool)
-        mesh = TriangleMesh(_apart(surface), triangles)
+        mesh = TriangleMesh(_side_by_side(surface), triangles)
         crossing[look] = crossing_triangles(mesh, everywhere, TOUCHING * surface.edge)
         return crossing
     steps = np.rint(surface.vertices * (STEPS / surface.size))
@@ -152,7 +152,7 @@ def proper_border(before: Surface, after: Surface) -> Surface:
 
 def _crossing_edges(surface: Surface, ends: Ints) -> Ints:
     """Which edges of the border cross another one of their face."""
-    points = _apart(surface)
+    points = _side_by_side(surface)
     corners = points[ends[:, [0, 1, 1]]]
     found = [np.zeros(0, np.int64)]
     place, pinned = surface.place, surface.pinned
@@ -187,7 +187,7 @@ def _on_one_side(a: Floats, b: Floats, c: Floats, d: Floats, touch: float) -> Bo
     return result
 
 
-def _apart(surface: PinnedMesh) -> Floats:
+def _side_by_side(surface: PinnedMesh) -> Floats:
     """The vertices with the octants side by side, so that no two of them meet."""
     vertices = surface.vertices.copy()
     vertices[:, 0] += 2.0 * surface.size * surface.piece

@@ -180,7 +180,7 @@ def orient(
         sphere = _sphere(DIRECTIONS)
         ranked = sphere[np.argsort([judge.rough(up) for up in sphere], kind="stable")]
         monitor.tick(0.2)
-        fine = [judge.refined(up) for up in _apart(ranked, REFINED)]
+        fine = [judge.refined(up) for up in _distinct(ranked, REFINED)]
         monitor.tick(0.3)
         wanted = [*judge.faces(), *np.concatenate([np.eye(3), -np.eye(3)]), *fine]
         found = []
@@ -365,7 +365,7 @@ def _sphere(count: int) -> Floats:
     return np.stack([flat * np.cos(turn), flat * np.sin(turn), z], axis=1)
 
 
-def _apart(ranked: Floats, count: int) -> list[Floats]:
+def _distinct(ranked: Floats, count: int) -> list[Floats]:
     """The first of directions that lie apart from each other."""
     found: list[Floats] = []
     for up in ranked:

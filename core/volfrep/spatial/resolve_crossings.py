@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.precision import decimal_step, rounded
-from ..mesh.topology import edge_keys, moved_vertices, pieces_of, touching, vertices_of
+from ..mesh.topology import displaced_vertices, edge_keys, pieces_of, touching, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, triangle_boxes
 from ..util.linalg import cross_columns, normalize
 from ..util.progress import Monitor
@@ -106,7 +106,7 @@ class Looks:
         """The same, of some of the triangles."""
         return Looks(self.marks[rows], self.step)
 
-    def beside(self, before: int, after: int) -> Looks:
+    def padded(self, before: int, after: int) -> Looks:
         """The same, with so many triangles before and after them of which nothing is known."""
         return Looks(np.pad(self.marks, (before, after)), self.step)
 
@@ -122,7 +122,7 @@ class Looks:
         return Looks(marks, self.step)
 
     @property
-    def apart(self) -> Bools:
+    def uncrossed(self) -> Bools:
         """(m,) bool, triangles of which no two cross each other in a file."""
         return np.asarray(self.marks & APART != 0, np.bool_)
 
@@ -196,7 +196,7 @@ def folds_of(
         among = looks.folds(mesh, deformed)
     if also is not None:
         among |= also
-    apart = None if looks is None else looks.apart
+    apart = None if looks is None else looks.uncrossed
     return Folds(among, _crossing(mesh, among, monitor, apart=apart))
 
 
@@ -230,7 +230,7 @@ def resolve_fold_crossings(
     if not deformed or len(pairs) <= MOST_PLACES:
         mesh, pairs = _resolved(mesh, pairs, folded.among, SHARES, monitor)
     if mesh is not before:  # what moved may have met what lies anywhere
-        moved = moved_vertices(before, mesh)
+        moved = displaced_vertices(before, mesh)
         went = touching(moved, mesh.triangles)
         stay = folded.pairs[~went[folded.pairs].any(axis=1)]
         now = _crossing(mesh, about(mesh, went), monitor, moved)

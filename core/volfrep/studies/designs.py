@@ -21,7 +21,7 @@ import numpy as np
 from ..design.parameters.parameter import REPEATED
 from ..design.parameters.specification import specification
 from ..design.parameters.table import BY_NAME, PARAMETERS
-from ..design.parameters.values import LENGTHS, SCALES, to_plain
+from ..design.parameters.values import LENGTHS, SCALES, value_to_json
 from ..design.spec import LatticeSpec
 from ..io.solid import Solid, read_solid, solid_of
 from ..mechanics.materials import SolidMaterial
@@ -209,7 +209,7 @@ def shown_values(design: Design) -> dict[str, Any]:
             continue
         parameter = BY_NAME[name]
         if parameter.in_command and not dataclasses.is_dataclass(value):
-            shown[name] = to_plain(parameter, value)
+            shown[name] = value_to_json(parameter, value)
         else:
             shown[name] = getattr(value, "name", None) or str(value)
     return shown

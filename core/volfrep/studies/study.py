@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..design.parameters.spec_file import KEYS, nearest_key, parse_spec, read_values, with_paths
 from ..design.parameters.specification import merge_values
 from ..design.parameters.table import BY_NAME
-from ..design.parameters.values import SCALES, from_plain
+from ..design.parameters.values import SCALES, value_from_json
 from ..io.solid import MeshLike
 from ..mechanics.materials import SolidMaterial, find_material
 from ..mesh.triangle_mesh import TriangleMesh
@@ -271,7 +271,7 @@ def _value(folder: Path, name: str, value: Any) -> Any:
     if name not in KEYS:
         raise VolfrepError(_unknown(name))
     try:
-        result = from_plain(BY_NAME[name], value)
+        result = value_from_json(BY_NAME[name], value)
     except VolfrepError as error:
         raise VolfrepError(f"{name}: {error}") from error
     return with_paths(name, result, lambda file: os.path.join(folder, file))

@@ -152,13 +152,13 @@ def _cut(
     elif executor is None and threads() > 1:
         executor = own = ThreadPoolExecutor(threads())
     try:
-        yield from _cut_beside(groups, count, executor, monitor)
+        yield from _cut_with(groups, count, executor, monitor)
     finally:
         if own is not None:  # after a cancel it does not wait for the groups that were begun
             own.shutdown(wait=False, cancel_futures=True)
 
 
-def _cut_beside(
+def _cut_with(
     groups: Iterator[tuple[int, Group]], count: int, executor: Executor | None, monitor: Monitor
 ) -> Iterator[tuple[int, Piece]]:
     """As `_cut`, with this executor; None: here."""

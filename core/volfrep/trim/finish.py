@@ -18,7 +18,7 @@ from ..mesh.float32_repair import (
 )
 from ..mesh.precision import merging_vertices
 from ..mesh.quality import Quality, quality_after_moves, refuse_no_solid
-from ..mesh.topology import moved_vertices, touching, vertices_of
+from ..mesh.topology import displaced_vertices, touching, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..spatial.regions import in_regions
 from ..spatial.resolve_crossings import Folds, folds_of, resolve_fold_crossings
@@ -232,7 +232,7 @@ def _with_reached(
     if not changed.is_joined:
         return TrimmedSurface(surface.whole(monitor))
     vertices, triangles = changed.mesh.vertices, changed.mesh.triangles
-    went = touching(moved_vertices(surface.mesh, changed.mesh), triangles)
+    went = touching(displaced_vertices(surface.mesh, changed.mesh), triangles)
     reached = surface.octants.reached(vertices[triangles[went]])
     return surface.with_octants(reached, monitor) if reached.any() else changed
 

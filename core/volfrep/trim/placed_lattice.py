@@ -23,8 +23,8 @@ from ..lattice.assembly import (
 )
 from ..lattice.certificate import SAFE_STEPS, CertifiedPieces, agree_on_faces, certify_pieces
 from ..lattice.deform import Deformed
-from ..lattice.moved_octants import look_at_moved
-from ..lattice.octant_kinds import MovedOctants
+from ..lattice.deformed_octants import look_at_deformed
+from ..lattice.octant_kinds import DeformedOctants
 from ..lattice.placed_octants import Placed
 from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..octants.octant import Octant, OctantKey, wrapped
@@ -80,7 +80,7 @@ class PlacedLattice(Placed):
         return self.points is None and agree_on_faces(self.layout)
 
     @cached_property
-    def moved(self) -> MovedOctants | None:
+    def moved(self) -> DeformedOctants | None:
         """What is found of octants inside, and those beside them, that do not keep their places."""
         if self.points is None:
             return None
@@ -92,7 +92,7 @@ class PlacedLattice(Placed):
         octants = [self.octants[key] for key in self.layout.grid.keys]
         farthest = np.float32(np.abs(self.points).max(initial=1.0))
         safe = SAFE_STEPS * float(np.spacing(farthest))
-        return look_at_moved(
+        return look_at_deformed(
             self.layout, octants, self.points, where, safe, self.excess, self.monitor
         )
 
@@ -192,7 +192,7 @@ class InnerOctants:
         return alone, result
 
     @property
-    def moved_vertices(self) -> tuple[Floats, Ints] | None:
+    def deformed_vertices(self) -> tuple[Floats, Ints] | None:
         """Where all vertices of the lattice are, and which are theirs, as `numbered_alone` counts.
 
         None where they keep their places.
@@ -251,7 +251,7 @@ class InnerOctants:
         row = np.minimum(np.searchsorted(self.rim, number), len(self.rim) - 1)
         return Caps(mesh, np.where(self.rim[row] == number, row, -1))
 
-    def _boxes(self, moved: MovedOctants) -> tuple[Ints, Floats, Floats]:
+    def _boxes(self, moved: DeformedOctants) -> tuple[Ints, Floats, Floats]:
         """(k, 3) places of those with a surface, and (k, 3) corners of the boxes about them, mm."""
         found = []
         for number, (key, place) in enumerate(
@@ -262,7 +262,7 @@ class InnerOctants:
         places, low, high = (np.concatenate(each) for each in zip(*found, strict=True))
         return places, low, high
 
-    def _reached_boxes(self, moved: MovedOctants, corners: Floats) -> Bools:
+    def _reached_boxes(self, moved: DeformedOctants, corners: Floats) -> Bools:
         """`reached` of octants that were moved: those whose boxes meet those of triangles."""
         places, low, high = self._boxes(moved)
         result = np.zeros(self.where.shape, bool)

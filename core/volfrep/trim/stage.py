@@ -196,7 +196,7 @@ def cleared_cut(
         return cleared
     cut = cleared.surface
     outside = len(solid.triangles)
-    looks = cut.looks and cut.looks.beside(outside, 0)
+    looks = cut.looks and cut.looks.padded(outside, 0)
     both = cut.on(concatenate(solid, cut.mesh), looks)
     skin = inspect(solid, monitor)
     return replace(

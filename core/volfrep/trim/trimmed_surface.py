@@ -95,7 +95,7 @@ class TrimmedSurface:
             np.concatenate([self.mesh.triangles, row.astype(np.int32)[more.triangles]]),
         )
         rest = inner.where & ~where
-        looks = self.looks and self.looks.beside(0, len(more.triangles))
+        looks = self.looks and self.looks.padded(0, len(more.triangles))
         return TrimmedSurface(mesh, InnerOctants(inner.laid, rest) if rest.any() else None, looks)
 
     def met_by(self, lines: Lines) -> Windings:

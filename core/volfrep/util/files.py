@@ -215,7 +215,7 @@ def refuse_full(path: str | os.PathLike[str], size: int) -> None:
 
 
 @contextmanager
-def beside(path: str | os.PathLike[str]) -> Iterator[Path]:
+def staged(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A path of the same name in a new folder beside the target, for whoever may be ended at work.
 
     What is there when the block succeeds takes the target's place; the folder goes in any case.

@@ -130,7 +130,7 @@ def write_instances(obj: App.DocumentObject, path: str | os.PathLike[str]) -> No
     """
     import Import
 
-    from freecad_volfrep.bridge.exact import plain_curves, silence
+    from freecad_volfrep.bridge.exact import silence, without_surface_curves
 
     active = App.ActiveDocument
     # Hidden, so that no window of it opens.
@@ -141,7 +141,7 @@ def write_instances(obj: App.DocumentObject, path: str | os.PathLike[str]) -> No
         with replacing(path) as file:
             unfinished = Path(file.name).with_suffix(".step")
             try:
-                with plain_curves(), silence():
+                with without_surface_curves(), silence():
                     Import.export([group], str(unfinished))
                 file.write(unfinished.read_bytes())
             finally:

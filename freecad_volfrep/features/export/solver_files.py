@@ -20,7 +20,7 @@ from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.sentences import report_line
 from volfrep.output.form import AXES, BEAMS, EXACT, MESH, TETRAHEDRA, Form, files, find_form
 from volfrep.util.errors import VolfrepError, listed
-from volfrep.util.files import beside
+from volfrep.util.files import staged
 
 from .exact import (
     checked_ingredients,
@@ -172,7 +172,7 @@ def write_pieces(obj: App.DocumentObject, path: str | os.PathLike[str], row: For
     title = job_title("Writing {label}", obj)
     if TETRAHEDRA in row.needs:
         title = job_title("Tetrahedra of {label}", obj)
-    with beside(path) as unfinished:
+    with staged(path) as unfinished:
         call = Call(write_given, (row.name, made, str(unfinished), deck))
         written = run_job(title, call)
     warn(obj, written.warnings)
@@ -252,7 +252,7 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     made_of = checked_ingredients(obj)
     place, title = place_in_document(obj), exact_title(obj)
     try:
-        with beside(path) as unfinished:
+        with staged(path) as unfinished:
             job = exact_job(obj, made_of)
             if made_of.domain is None:
                 # Never built as a shape: its text is laid at every place.
@@ -269,7 +269,7 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     except VolfrepError as error:
         mesh = mesh_in_document(obj)
         estimate_faceted(len(mesh.triangles))
-        with beside(path) as unfinished:
+        with staged(path) as unfinished:
             call = Call(write_step_faceted, (mesh, str(unfinished)), has_progress=False)
             run_job(job_title("Plane faces of {label}", obj), call)
         warn(obj, (f"{error} The file holds plane faces instead of exact surfaces.",))

@@ -9,7 +9,7 @@ from volfrep.design.parameters import BY_NAME, PARAMETERS
 from volfrep.design.parameters.parameter import effective
 from volfrep.design.parameters.table import NOTHING
 
-from .values import SOURCES, plain_values
+from .values import SOURCES, json_values
 
 #: Properties on which it hangs whether others apply.
 CONTROLS = tuple(
@@ -36,7 +36,7 @@ def show_applicable(obj: App.DocumentObject) -> None:
     """Hide the properties that have no effect; does nothing while some are still missing."""
     if not SOURCES.issubset(obj.PropertiesList):
         return
-    _, idle = effective(PARAMETERS, plain_values(obj))
+    _, idle = effective(PARAMETERS, json_values(obj))
     for parameter in PARAMETERS:
         applies = parameter.name not in idle
         if parameter.switch:

@@ -53,13 +53,13 @@ SOURCES = frozenset(
 )
 
 
-def plain_values(obj: App.DocumentObject) -> dict[str, Any]:
+def json_values(obj: App.DocumentObject) -> dict[str, Any]:
     """What the properties say, whether or not it has an effect; None for nothing.
 
     Links, faces and the density are not looked at. Every other property must be there.
     """
     return {
-        parameter.name: _plain(obj, parameter)
+        parameter.name: _json_value(obj, parameter)
         for parameter in PARAMETERS
         if parameter.in_freecad and parameter.kind not in (*_LOOKED_UP, "density")
     }
@@ -86,12 +86,12 @@ def values_in_effect(obj: App.DocumentObject) -> tuple[dict[str, Any], Target | 
     """
     from volfrep.design.spec_parts import first_radius
 
-    from .network_faces import laid_along_faces
+    from .graph_faces import cells_along_faces
     from .openings import openings_of
 
     material = material_of(obj)
     density = density_of(obj) if material is None else material.density
-    values = plain_values(obj) | {"density": density} | openings_of(obj)
+    values = json_values(obj) | {"density": density} | openings_of(obj)
     _, idle = effective(PARAMETERS, values)
     values = {name: value for name, value in values.items() if name not in idle}
     if values["cell"] == CUSTOM_CELL:
@@ -111,7 +111,7 @@ def values_in_effect(obj: App.DocumentObject) -> tuple[dict[str, Any], Target | 
         values["radius_field"] = _field(obj)
     values["skin_field"] = values["skin_field"] or sized_skin(obj)
     if values.get("network") == "faces":
-        values["network_faces"] = laid_along_faces(obj, values)
+        values["network_faces"] = cells_along_faces(obj, values)
     return values, target
 
 
@@ -135,7 +135,7 @@ def _target(values: dict[str, Any], material: SolidMaterial | None) -> Target | 
     return read_target({driver.replace(" ", "_"): value}, young)
 
 
-def _plain(obj: App.DocumentObject, parameter: Parameter) -> Any:
+def _json_value(obj: App.DocumentObject, parameter: Parameter) -> Any:
     if parameter.switch and not getattr(obj, parameter.switch_name):
         return None
     if parameter.position_of:

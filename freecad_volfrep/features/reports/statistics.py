@@ -75,7 +75,11 @@ def statistics(infills: list[App.DocumentObject]) -> list[Table]:
     said = ["; ".join(tell_stale(obj)) for obj in infills]
     figures: list[tuple[Any, ...]] = [("out of date", *said)] if any(said) else []
     for name, key in _FIGURES:
-        values = masses if key == "mass_g" else [_plain(key, report.get(key)) for report in reports]
+        values = (
+            masses
+            if key == "mass_g"
+            else [_shown_value(key, report.get(key)) for report in reports]
+        )
         figures.append((name, *values))
     does = _lattices(infills, reports)
     return [
@@ -127,7 +131,7 @@ def _lattice(obj: App.DocumentObject) -> dict[str, str]:
     return {name: rows[name] for name in rows if name not in ("cell", "material")}
 
 
-def _plain(key: str, value: Any) -> Any:
+def _shown_value(key: str, value: Any) -> Any:
     if value is None:
         return None
     if key == "relative_density":

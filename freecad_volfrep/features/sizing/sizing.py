@@ -17,7 +17,7 @@ from freecad_volfrep.features.infill.sized_radii import store_radii, store_skin
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.reports.tables import Table
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
-from volfrep.design.parameters.specification import held_value
+from volfrep.design.parameters.specification import spec_value
 from volfrep.design.parameters.table import BY_NAME
 from volfrep.util.errors import VolfrepError
 
@@ -376,7 +376,7 @@ def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
     spec = outcome.part.spec
     if "skin" in outcome.part.report:
         store_skin(obj, spec.shell, spec.skin_field)
-    shortest = held_value(spec, BY_NAME["network_shortest"])
+    shortest = spec_value(spec, BY_NAME["network_shortest"])
     if shortest:  # other radii would draw other struts together
         obj.NetworkShortest = shortest
     obj.RemoveBelow, obj.RemoveDangling = spec.remove_below, spec.remove_dangling

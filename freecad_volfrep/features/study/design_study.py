@@ -18,7 +18,7 @@ from freecad_volfrep.deps import engine_folders, python_executable
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
 from freecad_volfrep.features.infill.materials import material_of
-from freecad_volfrep.features.infill.values import plain_values, values_in_effect
+from freecad_volfrep.features.infill.values import json_values, values_in_effect
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
@@ -137,7 +137,7 @@ def make_design_study(
 
 def variable(infill: App.DocumentObject) -> list[Parameter]:
     """The parameters of an infill that can vary: those that have an effect now."""
-    values = plain_values(infill)
+    values = json_values(infill)
     _, idle = effective(PARAMETERS, values)
     left_out = _OF_THE_DOCUMENT - _AIMED.keys()
     if values["radius_driven_by"] != "radius":
@@ -168,7 +168,7 @@ def values_about(infill: App.DocumentObject, parameter: Parameter) -> str:
         return ", ".join(LIBRARY)
     if parameter.kind == "choice":
         return ", ".join(parameter.labels)
-    present = plain_values(infill)[parameter.name]
+    present = json_values(infill)[parameter.name]
     if parameter.kind == "integer":
         return ", ".join(str(max(1, round(present)) + step) for step in range(3))
     return ", ".join(f"{(present or 1.0) * share:.3g}" for share in _AROUND)

@@ -88,7 +88,7 @@ def tpms_icon(name: str, size: int = 72) -> QtGui.QIcon:
     return QtGui.QIcon(QtGui.QPixmap.fromImage(image.copy()))
 
 
-def network_icon(kind: str, size: int = 72) -> QtGui.QIcon:
+def graph_icon(kind: str, size: int = 72) -> QtGui.QIcon:
     """A graph lattice in the plane: between points, of a file, or in layers along faces.
 
     Args:

@@ -56,7 +56,7 @@ class ArrowHandle:
         self._on_move = view.addEventCallbackPivy(self._moves, self._move)
 
     @property
-    def is_held(self) -> bool:
+    def is_dragged(self) -> bool:
         """Whether the mouse holds an end."""
         return self._end != 0.0
 
@@ -87,14 +87,14 @@ class ArrowHandle:
                 self._end = sign
                 node.grabEvents()
                 node.setHandled()
-        elif self.is_held:
+        elif self.is_dragged:
             self._end = 0.0
             node.releaseEvents()
             node.setHandled()
             self._released()
 
     def _move(self, node: Any) -> None:
-        if not self.is_held:
+        if not self.is_dragged:
             return
         node.setHandled()
         end = self._on_sphere(*_place(node.getEvent())) - self._middle

@@ -107,7 +107,7 @@ class _Drawing(QtWidgets.QWidget):
         self.setFixedHeight(HEIGHT)
         self.setFocusPolicy(QtCore.Qt.StrongFocus)
         self._changed = changed
-        self._held = False
+        self._dragged = False
         self.chosen = 0
         self.take(formula)
 
@@ -121,7 +121,7 @@ class _Drawing(QtWidgets.QWidget):
         except VolfrepError:
             values = []  # the panel says what is wrong with it
         self._line: list[Point] = list(zip(SAMPLES, values, strict=False))
-        if not self._held:
+        if not self._dragged:
             self._top = 1.25 * max([value for _, value in (*self._line, *self.points)] or [1.0])
         self.update()
 
@@ -178,18 +178,18 @@ class _Drawing(QtWidgets.QWidget):
         if event.button() == QtCore.Qt.RightButton:
             self.set_points(without(self.points, near), max(near - 1, 0))
             return
-        self.chosen, self._held = near, event.button() == QtCore.Qt.LeftButton
+        self.chosen, self._dragged = near, event.button() == QtCore.Qt.LeftButton
         self.update()
 
     def mouseMoveEvent(self, event: QtGui.QMouseEvent) -> None:  # noqa: N802
         """Drag what is held."""
-        if self._held:
+        if self._dragged:
             self.set_points(moved(self.points, self.chosen, *self._at(event.pos())), self.chosen)
 
     def mouseReleaseEvent(self, event: QtGui.QMouseEvent) -> None:  # noqa: N802
         """Let go, and find room for what was drawn."""
-        if self._held:
-            self._held = False
+        if self._dragged:
+            self._dragged = False
             self.take(self.formula)
 
     def mouseDoubleClickEvent(self, event: QtGui.QMouseEvent) -> None:  # noqa: N802

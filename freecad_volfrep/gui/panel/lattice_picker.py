@@ -9,7 +9,7 @@ from typing import Any
 import FreeCAD as App
 
 from freecad_volfrep.gui.cells.cell_entry import icon_of
-from freecad_volfrep.gui.cells.cell_picture import cell_icon, network_icon
+from freecad_volfrep.gui.cells.cell_picture import cell_icon, graph_icon
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.cells import load_cell, measure_of
@@ -118,7 +118,7 @@ class LatticePicker(QtWidgets.QWidget):
             text = translate("VolfrepTaskPanel", NETWORKS[name]) if tab == 2 else name
             item = QtWidgets.QListWidgetItem(text, self.list)
             item.setData(QtCore.Qt.UserRole, name)
-            item.setIcon(network_icon(name, PICTURE) if tab == 2 else self._icon(name))
+            item.setIcon(graph_icon(name, PICTURE) if tab == 2 else self._icon(name))
             if is_there and name == present:
                 self.list.setCurrentItem(item)
                 self.list.scrollToItem(item)

@@ -228,7 +228,7 @@ class PickBox(QtWidgets.QWidget):
 
     def _take(self) -> None:
         """Set the property to what is selected."""
-        if not self._pick.isChecked() or self._picture.is_held:
+        if not self._pick.isChecked() or self._picture.is_dragged:
             return
         chosen = [
             (item.Object, element, at)
@@ -299,7 +299,7 @@ class _Picture:
 
     def show(self, name: str | None) -> None:
         """Draw a property in the place of what was drawn last; None: nothing."""
-        if self._handle is not None and not self._handle.is_held:
+        if self._handle is not None and not self._handle.is_dragged:
             self._handle.remove()
             self._handle = None
         if self._scene is not None:
@@ -336,9 +336,9 @@ class _Picture:
             )  # fmt: skip
 
     @property
-    def is_held(self) -> bool:
+    def is_dragged(self) -> bool:
         """Whether the mouse holds the arrow."""
-        return self._handle is not None and self._handle.is_held
+        return self._handle is not None and self._handle.is_dragged
 
     def _middle(self) -> tuple[Any, float]:
         """(3,) the middle of the solid's box, and its diagonal, mm."""

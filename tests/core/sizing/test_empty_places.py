@@ -6,7 +6,7 @@ import pytest
 from volfrep import LatticeSpec
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.jobs.blocks import block_wireframe
-from volfrep.jobs.sizing.removal import empty_places
+from volfrep.jobs.sizing.thin_struts import empty_places
 
 
 def without(frame, gone):

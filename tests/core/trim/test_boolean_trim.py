@@ -119,7 +119,7 @@ def test_what_groups_tell_of_folds_is_what_a_look_at_all_of_it_finds(cavity, mon
     assert looks.step == decimal_step(mesh.vertices)
     one, two = folds_of(mesh, Monitor()), folds_of(mesh, Monitor(), looks=looks)
     assert one.among.any()
-    assert looks.apart.sum() > 0.5 * one.among.sum(), "few are left to be looked at"
+    assert looks.uncrossed.sum() > 0.5 * one.among.sum(), "few are left to be looked at"
     np.testing.assert_array_equal(one.among, two.among)
     np.testing.assert_array_equal(one.pairs, two.pairs)
     # Where nothing is known all of it is looked at.

@@ -4,7 +4,7 @@
 import pytest
 
 from volfrep.util.errors import VolfrepError
-from volfrep.util.files import beside
+from volfrep.util.files import staged
 
 
 def test_what_was_written_beside_takes_the_targets_place(tmp_path):
@@ -12,7 +12,7 @@ def test_what_was_written_beside_takes_the_targets_place(tmp_path):
     target.write_text("old")
     target.chmod(0o640)
     mode = target.stat().st_mode  # Windows has no groups
-    with beside(target) as unfinished:
+    with staged(target) as unfinished:
         assert unfinished.name == target.name
         unfinished.write_text("new")
         assert target.read_text() == "old"
@@ -26,7 +26,7 @@ def test_an_error_names_the_target_and_leaves_it(tmp_path):
     target.write_text("old")
 
     def fail():
-        with beside(target) as unfinished:
+        with staged(target) as unfinished:
             unfinished.write_text("half")
             raise VolfrepError(f"Cannot write '{unfinished}': the disk is full.")
 
@@ -38,5 +38,5 @@ def test_an_error_names_the_target_and_leaves_it(tmp_path):
 
 
 def test_no_folder_is_told_before_anything_is_done(tmp_path):
-    with pytest.raises(VolfrepError, match="there is no folder"), beside(tmp_path / "a" / "b.stl"):
+    with pytest.raises(VolfrepError, match="there is no folder"), staged(tmp_path / "a" / "b.stl"):
         pytest.fail("the block runs")

@@ -62,7 +62,7 @@ class GivenGraph:
         content = content_of(self.nodes, self.struts, self.radii, self.widths)
         object.__setattr__(self, "_content", content)
 
-    def as_plain(self) -> str:
+    def as_json(self) -> str:
         """It in a few words, which files hold that are handed on: no folders."""
         words = f"{len(self.struts)} struts between {len(self.nodes)} nodes"
         return words + f" of {Path(self.source).name}" * bool(self.source)
@@ -70,12 +70,12 @@ class GivenGraph:
 
 @dataclass(frozen=True)
 class StretchedCells:
-    """The chosen cell side by side, where it is no cube or its struts differ (`UnitCell.is_plain`).
+    """The chosen cell side by side, where it is no cube or its struts differ (`UnitCell`).
 
     Octants are for cubes; such cells are meshed joint by joint, as networks are.
     """
 
-    def as_plain(self) -> str:
+    def as_json(self) -> str:
         """It in a few words."""
         return "cells that are no cubes, or whose struts differ"
 
@@ -146,7 +146,7 @@ class RandomGraph:
         """The density of the points over s."""
         return compile_expression(self.density.strip() or "1")
 
-    def as_plain(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Any]:
         """It as plain JSON values."""
         values = {name: getattr(self, name) for name in self.__dataclass_fields__}
         values["field"] = None if self.field is None else Path(self.field.source).name or "points"

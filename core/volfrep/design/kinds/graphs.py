@@ -100,7 +100,7 @@ class GraphOfFile(Graph):
     def content_of_0_1_0(self) -> Sequence[NDArray[Any]] | None:
         """Nodes, struts and radii; and the cell, which is of no effect."""
         graph, cell = self.graph, self.unit_cell()
-        if len(graph.widths) or not cell.is_plain:
+        if len(graph.widths) or not cell.is_uniform_cube:
             return None
         return graph.nodes, graph.struts, graph.radii, cell.nodes, cell.struts
 
@@ -146,7 +146,7 @@ class GraphOfPoints(Graph):
     def content_of_0_1_0(self) -> Sequence[NDArray[Any]] | None:
         """The cell, which is of no effect."""
         cell = self.unit_cell()
-        if self.graph.field is not None or not cell.is_plain:
+        if self.graph.field is not None or not cell.is_uniform_cube:
             return None
         return cell.nodes, cell.struts
 

@@ -46,7 +46,7 @@ class StrutCells(Kind):
     @property
     def network(self) -> StretchedCells | None:
         """None, or what cells are taken as that are no cubes, or whose struts differ."""
-        return None if self.unit_cell().is_plain else StretchedCells()
+        return None if self.unit_cell().is_uniform_cube else StretchedCells()
 
     @property
     def cube(self) -> UnitCell:

@@ -109,9 +109,9 @@ class Tpms(Kind):
         """Nothing."""
         return {}
 
-    def as_plain(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Any]:
         """The wall and the surface's formula."""
-        return {"wall": {"formula": self.surface.formula, **self.spec.wall.as_plain()}}
+        return {"wall": {"formula": self.surface.formula, **self.spec.wall.as_json()}}
 
     def unit_cell(self) -> UnitCell:
         """None.

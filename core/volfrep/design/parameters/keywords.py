@@ -26,7 +26,7 @@ from .field_keywords import is_field, is_sampled, with_cell_size, with_fields
 from .parameter import REPEATED, Parameter
 from .specification import merge_values, specification, values_of
 from .table import BY_NAME, PARAMETERS
-from .values import from_plain
+from .values import value_from_json
 
 #: What values of a wrong kind raise deep inside, where no sentence was thought of.
 BAD_KINDS = (TypeError, ValueError, AttributeError, LookupError, OverflowError)
@@ -170,7 +170,7 @@ def _value(name: str, value: Any) -> Any:
     """
     if name not in KEYS or name in ("cell", "stiffness") or is_field(name, value):
         return value
-    row, plain = BY_NAME[name], _plain_value(value)
+    row, plain = BY_NAME[name], _json_value(value)
     if plain is None or not isinstance(plain, (str, int, float, list)):
         held = name in (*WORDS, "keep_solid") or isinstance(value, Field)
         if plain is None or (held and not callable(value) and not isinstance(value, bytes)):
@@ -184,18 +184,18 @@ def _value(name: str, value: Any) -> Any:
     if row.kind in REPEATED and plain and isinstance(plain, list) and _is_number(plain[0]):
         plain = [plain]
     try:
-        made = from_plain(row, plain)
+        made = value_from_json(row, plain)
     except VolfrepError as error:
         raise VolfrepError(f"{name}: {error}") from error
     return None if row.is_none and name in FIELDS and not made else made
 
 
-def _plain_value(value: Any) -> Any:
+def _json_value(value: Any) -> Any:
     """Arrays and tuples as lists, numpy's numbers as Python's."""
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
     if isinstance(value, (list, tuple)):
-        return [_plain_value(item) for item in value]
+        return [_json_value(item) for item in value]
     return os.fspath(value) if isinstance(value, os.PathLike) else value
 
 

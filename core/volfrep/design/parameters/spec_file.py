@@ -21,7 +21,7 @@ from .parameter import GROUPS
 from .recipes import recipe_or_file
 from .specification import specification, values_of
 from .table import BY_NAME, PARAMETERS
-from .values import from_plain, to_plain
+from .values import value_from_json, value_to_json
 
 #: Keys of a file, in the table's order.
 KEYS = tuple(parameter.name for parameter in PARAMETERS if parameter.in_command)
@@ -106,7 +106,7 @@ def _written(values: Mapping[str, Any], folder: Path) -> str:
         if rows:
             lines += ["", f"# {GROUPS[group].capitalize()}"]
         for parameter in rows:
-            value = to_plain(parameter, values[parameter.name])
+            value = value_to_json(parameter, values[parameter.name])
             value = with_paths(parameter.name, value, lambda file: _seen_from(folder, file))
             lines.append(f"{parameter.name} = {_toml(value)}")
     return "\n".join([*lines, ""])
@@ -127,7 +127,7 @@ def _value(path: Path, name: str, value: Any) -> Any:
             f"{path} has an unknown entry '{name}': the nearest is '{nearest_key(name)}'."
         )
     try:
-        result = from_plain(BY_NAME[name], value)
+        result = value_from_json(BY_NAME[name], value)
     except VolfrepError as error:
         raise VolfrepError(f"{path}, {name}: {error}") from error
     return with_paths(name, result, lambda file: os.path.join(path.parent, file))

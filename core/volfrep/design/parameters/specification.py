@@ -2,7 +2,7 @@
 """Specifications made of values by name, and taken apart into them.
 
 A row of the table that names a field goes there and comes back from there by itself (`_fields`,
-`held_value`); only what takes more than copying is spelled out: cells, targets, faces, files.
+`spec_value`); only what takes more than copying is spelled out: cells, targets, faces, files.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ def _fields(used: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     return parts
 
 
-def held_value(spec: LatticeSpec, row: Parameter) -> Any:
+def spec_value(spec: LatticeSpec, row: Parameter) -> Any:
     """What a specification holds of a row's value; None where there is no such part of it."""
     value: Any = spec
     for name in row.field.split("."):
@@ -143,7 +143,7 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
         VolfrepError: it holds what no value can say: a cell or a field without a file, or a face
             picked in FreeCAD.
     """
-    found = {row.name: held_value(spec, row) for row in PARAMETERS if row.field}
+    found = {row.name: spec_value(spec, row) for row in PARAMETERS if row.field}
     assert not isinstance(spec.cell, str)
     found |= {**spec.cell.as_values(), **_skin_values(spec)}
     if spec.drains is not None:

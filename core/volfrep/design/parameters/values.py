@@ -58,7 +58,7 @@ def from_text(parameter: Parameter, text: str) -> Any:
     return _word(parameter, text)
 
 
-def from_plain(parameter: Parameter, value: Any) -> Any:
+def value_from_json(parameter: Parameter, value: Any) -> Any:
     """The value that an entry of a file stands for: a number, text, truth or list of these.
 
     Raises:
@@ -89,8 +89,8 @@ def from_plain(parameter: Parameter, value: Any) -> Any:
     return _word(parameter, value)
 
 
-def to_plain(parameter: Parameter, value: Any) -> Any:
-    """What `from_plain` makes the value of."""
+def value_to_json(parameter: Parameter, value: Any) -> Any:
+    """What `value_from_json` makes the value of."""
     if parameter.kind in REPEATED:
         return [
             item if isinstance(item, str) else [float(number) for number in item] for item in value

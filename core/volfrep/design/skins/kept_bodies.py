@@ -79,7 +79,7 @@ class KeptBody:
         points = np.unique(np.round(self.vertices, 6) + 0.0, axis=0)
         return points, len(self.triangles), rough(self.mesh.volume)
 
-    def as_plain(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Any]:
         """What tells one body from another, as plain JSON values."""
         digest = hashlib.blake2b(np.round(self.vertices, 6).tobytes(), digest_size=8)
         digest.update(self.triangles.tobytes())

@@ -61,14 +61,14 @@ class TpmsSheet:
         """How a user calls what says how thick it is."""
         return "wall thickness" if self.is_sheet else "wall offset"
 
-    def as_plain(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Any]:
         """What counts of it as plain JSON values."""
         size = {"thickness": self.thickness} if self.is_sheet else {"offset": self.offset}
         return {"kind": self.kind, **size}
 
     def identity(self) -> dict[str, Any]:
         """What counts of it for `util.content.digest_of`."""
-        return self.as_plain()
+        return self.as_json()
 
     def coarsest(self, cell_size: float, thinnest: float) -> int:
         """Facets along a cell below which samples could miss a sheet of a thickness in mm."""

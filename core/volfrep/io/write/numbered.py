@@ -109,7 +109,7 @@ def number_vertices(
     fresh = number < 0
     number[fresh] = layout.count + np.arange(int(fresh.sum()))
     rest = TriangleMesh(mesh.vertices[fresh], number.astype(np.int32)[mesh.triangles])
-    return Numbered(rest, layout, inner.laid.motion, given.bounds, inner.moved_vertices)
+    return Numbered(rest, layout, inner.laid.motion, given.bounds, inner.deformed_vertices)
 
 
 def _blocks(rows: NDArray[Number]) -> Iterator[NDArray[Number]]:

@@ -164,7 +164,7 @@ def octant_copies(inner: InnerOctants, path: str | os.PathLike[str]) -> Iterator
     points = inner.laid.points
     if points is None:
         return _copies(inner.layout, inner.laid.motion)
-    return _moved_copies(inner.layout, points, path)
+    return _deformed_copies(inner.layout, points, path)
 
 
 def _copies(layout: Layout, motion: Motion) -> Iterator[Copies]:
@@ -191,7 +191,9 @@ def _copies(layout: Layout, motion: Motion) -> Iterator[Copies]:
                 yield Copies(at[part], len(order), some, goes=True)
 
 
-def _moved_copies(layout: Layout, points: Floats, path: str | os.PathLike[str]) -> Iterator[Copies]:
+def _deformed_copies(
+    layout: Layout, points: Floats, path: str | os.PathLike[str]
+) -> Iterator[Copies]:
     """Octants whose numbered vertices were moved to (n, 3) points, mm."""
 
     def facets(octant: Octant, order: NDArray[np.int32], at: Ints) -> Facets:

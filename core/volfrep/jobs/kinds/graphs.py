@@ -177,7 +177,7 @@ class GraphLattice(SurfaceLattice):
         return smallest_piece(self.struts)
 
     @property
-    def is_moved(self) -> bool:
+    def is_deformed(self) -> bool:
         """Whether radii vary, or the graph is bent."""
         return not keeps_places(self.spec.struts, self.part.placement)
 
@@ -222,13 +222,13 @@ class GraphBlock(BlockLattice):
     def result(self, monitor: Monitor) -> Result:
         """It as a mesh."""
         corner = np.array(self.spec.origin or (0.0, 0.0, 0.0), float)
-        laid = cells_beside(self.spec, self.count, corner)
+        laid = block_of_cells(self.spec, self.count, corner)
         return mesh_graph_alone(replace(self.spec, network=laid), monitor=monitor)
 
     def wireframe(self) -> Wireframe:
         """Its nodes and struts."""
         corner = np.array(self.spec.origin or (0.0, 0.0, 0.0), float)
-        laid = cells_beside(self.spec, self.count, corner)
+        laid = block_of_cells(self.spec, self.count, corner)
         return frame_alone(replace(self.spec, network=laid))[0]
 
     def search(self, target: Target) -> GraphSearch:
@@ -369,10 +369,10 @@ def cells_about(bounds: Floats, spec: LatticeSpec) -> GivenGraph:
     first = np.floor((bounds[0] - start) / size + 1e-6)
     last = np.ceil((bounds[1] - start) / size - 1e-6)
     counts = [int(n) for n in last - first]
-    return cells_beside(spec, (counts[0], counts[1], counts[2]), start + first * size)
+    return block_of_cells(spec, (counts[0], counts[1], counts[2]), start + first * size)
 
 
-def cells_beside(spec: LatticeSpec, counts: tuple[int, int, int], corner: Floats) -> GivenGraph:
+def block_of_cells(spec: LatticeSpec, counts: tuple[int, int, int], corner: Floats) -> GivenGraph:
     """So many cells of any box along x, y, z from a corner on, mm."""
     cell = spec.unit_cell()
     whole = spec.cell_size * np.array(cell.edges) * counts

@@ -148,7 +148,7 @@ class PartLattice(ABC):
 
     @property
     @abstractmethod
-    def is_moved(self) -> bool:
+    def is_deformed(self) -> bool:
         """Whether its vertices are elsewhere than they were meshed."""
 
     @abstractmethod
@@ -402,7 +402,7 @@ class LatticeKind(ABC):
         else:
             reached = report.mass_g if target.aim == "mass" else report.relative_density
         found = {f"{spec.kind.measure}_mm": spec.kind.thickness}
-        figures = {**target.as_plain(), "reached": reached, **found}
+        figures = {**target.as_json(), "reached": reached, **found}
         off = reached / target.value - 1.0
         notes: tuple[str, ...] = ()
         if abs(off) > PROMISED:

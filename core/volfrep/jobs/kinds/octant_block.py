@@ -80,7 +80,7 @@ class OctantBlock(BlockLattice):
 
     @property
     @abstractmethod
-    def is_moved(self) -> bool:
+    def is_deformed(self) -> bool:
         """Whether vertices are elsewhere than they were meshed."""
 
     @property
@@ -138,7 +138,7 @@ class OctantBlock(BlockLattice):
                 refuse_no_solid(measured)
             else:
                 surface, measured, notes = finish(
-                    surface, measured, monitor, self.is_moved, cut=False
+                    surface, measured, monitor, self.is_deformed, cut=False
                 )
         report = self._report(laid, measured, monitor, removed)
         return Result(surface, self.frame, with_warnings(report, notes))

@@ -100,9 +100,9 @@ class OctantLattice(PartLattice):
             guard.refuse_before_skin(spec, part.solid, streamed=part.streamed)
         refuse_expected(spec, 0.0 if part.streamed else part.domain.mesh.volume)
         _ = self.struts  # refused before anything is meshed
-        motion = None if self.is_moved else part.placement.motion
+        motion = None if self.is_deformed else part.placement.motion
         # Where nothing is cut there is no wall that an octant could reach.
-        margin = np.inf if not is_cut else FIRST_MARGIN if self.is_moved else 0.0
+        margin = np.inf if not is_cut else FIRST_MARGIN if self.is_deformed else 0.0
         with self.monitor.stage("tile", 0.4, 0.5):
             within = partial(self._within, is_cut)
             first = within(margin)

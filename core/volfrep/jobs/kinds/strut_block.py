@@ -44,7 +44,7 @@ class StrutBlock(OctantBlock):
         return graded_wireframe(self.graph, self.spec.struts, self.placement)
 
     @property
-    def is_moved(self) -> bool:
+    def is_deformed(self) -> bool:
         """Whether vertices are elsewhere than they were meshed."""
         from ...lattice.padded_grid import keeps_places
 

@@ -49,7 +49,7 @@ class StrutLattice(OctantLattice):
         return self.spec.unit_cell()
 
     @cached_property
-    def is_moved(self) -> bool:
+    def is_deformed(self) -> bool:
         """Whether the vertices of octants are moved in lattice space."""
         return not keeps_places(self.spec.struts, self.part.placement)
 
@@ -86,7 +86,7 @@ class StrutLattice(OctantLattice):
 
         def meshed(wanted: OctantSpec) -> tuple[KeptOctants, dict[OctantKey, Octant]]:
             kept = chosen_octants(
-                grid, roles, self._cell, self.pruned, wanted, joined=self.is_moved
+                grid, roles, self._cell, self.pruned, wanted, joined=self.is_deformed
             )
             keys = tuple(kept.grid.keys)
             made = part.cache.run("tile", mesh_octants, self._cell, wanted, keys, part.watch)

@@ -27,7 +27,7 @@ class SurfaceLattice(PartLattice):
         """The lattice, closed, nothing cut; made once."""
 
     @property
-    def is_moved(self) -> bool:
+    def is_deformed(self) -> bool:
         """Whether its vertices are elsewhere than they were meshed: they are not."""
         return False
 

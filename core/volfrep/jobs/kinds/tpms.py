@@ -177,7 +177,7 @@ class TpmsLattice(OctantLattice):
         return LEAST_WIDTH_STRETCHED
 
     @cached_property
-    def is_moved(self) -> bool:
+    def is_deformed(self) -> bool:
         """Whether the vertices of octants are moved in lattice space."""
         return not keeps_places(self.spec, self.part.placement)
 
@@ -250,7 +250,7 @@ class TpmsBlock(OctantBlock):
         return NO_STRUTS
 
     @property
-    def is_moved(self) -> bool:
+    def is_deformed(self) -> bool:
         """Whether vertices are elsewhere than they were meshed."""
         return not keeps_places(self.spec, self.placement)
 

@@ -4,7 +4,6 @@
 from .file_proof import check_file_proof, prove_file
 from .goal import GOALS, Goal, goal_of
 from .printed import Printing, printed_note
-from .removal import radius_field
 from .sizing import (
     SizedPart,
     size,
@@ -13,6 +12,7 @@ from .sizing import (
     write_radii,
 )
 from .skin_search import write_thickness
+from .thin_struts import radius_field
 
 __all__ = [
     "GOALS",

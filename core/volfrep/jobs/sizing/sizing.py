@@ -49,7 +49,6 @@ from .notes import (
 )
 from .part_model import given_radii, part_model
 from .printed import Printing, printed_figures, printed_note
-from .removal import RADIUS_STEP, SLACK, Thinned, field_points, radius_field, without_thin_struts
 from .skin_search import (
     SkinDesign,
     design_skin,
@@ -59,6 +58,14 @@ from .skin_search import (
     weighed,
 )
 from .solid_places import filled_notes, solid_places
+from .thin_struts import (
+    RADIUS_STEP,
+    SLACK,
+    Thinned,
+    field_points,
+    radius_field,
+    without_thin_struts,
+)
 
 #: So many times a design is made thicker because of what CalculiX finds.
 CORRECTIONS = 3

@@ -31,7 +31,7 @@ class TpmsProperties(CellProperties):
     sheet: TpmsSheet
 
     def _size(self) -> dict[str, Any]:
-        kind, *sizes = self.sheet.as_plain().items()
+        kind, *sizes = self.sheet.as_json().items()
         return {"wall_kind": kind[1], **{f"wall_{name}_mm": value for name, value in sizes}}
 
     def _sized(self) -> str:

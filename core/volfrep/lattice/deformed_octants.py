@@ -27,7 +27,7 @@ from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
 from .assembly import CHUNK_VERTICES, Layout, facets, numbers
-from .octant_kinds import GENERIC, Measured, MovedOctants, OctantKind, look_at
+from .octant_kinds import GENERIC, DeformedOctants, Measured, OctantKind, look_at
 
 #: Vertices of octants that are looked at at a time: they should stay in the processor's cache.
 BLOCK_VERTICES = 1 << 14
@@ -36,7 +36,7 @@ BLOCK_VERTICES = 1 << 14
 LAYERS, FARTHEST = 4, 0.45
 
 
-def look_at_moved(
+def look_at_deformed(
     layout: Layout,
     octants: list[Octant],
     points: Floats,
@@ -44,7 +44,7 @@ def look_at_moved(
     safe: float,
     excess: float,
     monitor: Monitor,
-) -> MovedOctants:
+) -> DeformedOctants:
     """Measure moved octants, and look for what is wrong with them.
 
     Args:
@@ -71,7 +71,7 @@ def look_at_moved(
             for begin in range(0, len(place), _copies(octant)):
                 part = place[begin : begin + _copies(octant)]
                 unsound[tuple(part.T)] |= twin[numbers(layout, octant, part)].any(axis=1)
-    return MovedOctants(row, kinds, unsound | _turning_back(layout, points, bent, monitor))
+    return DeformedOctants(row, kinds, unsound | _turning_back(layout, points, bent, monitor))
 
 
 def _copies(octant: Octant) -> int:

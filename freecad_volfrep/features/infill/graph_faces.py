@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from volfrep.design.graphs import GivenGraph
 
 
-def laid_along_faces(obj: App.DocumentObject, values: dict[str, Any]) -> GivenGraph:
+def cells_along_faces(obj: App.DocumentObject, values: dict[str, Any]) -> GivenGraph:
     """Cells between two faces, or in layers upon one.
 
     Args:

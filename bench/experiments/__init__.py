@@ -10,7 +10,20 @@ from __future__ import annotations
 
 from types import ModuleType
 
-from . import accuracy, blocks, bracket, cells, profiles, rod, scale, sizes, startup, trimmed, wing
+from . import (
+    accuracy,
+    blocks,
+    bracket,
+    cells,
+    limits,
+    profiles,
+    rod,
+    scale,
+    sizes,
+    startup,
+    trimmed,
+    wing,
+)
 
 #: In the order of the document.
 EXPERIMENTS: dict[str, ModuleType] = {
@@ -21,6 +34,7 @@ EXPERIMENTS: dict[str, ModuleType] = {
     "bracket": bracket,
     "sizes": sizes,
     "trimmed": trimmed,
+    "limits": limits,
     "rod": rod,
     "wing": wing,
     "scale": scale,

@@ -297,6 +297,6 @@ def _forecast(
         struts=max(1, round(cells * float(shares.sum()))) if len(shares) else 0,
         triangles=round(triangles),
         memory_gb=(costs.BYTES + bytes_per_triangle * triangles) / 1e9,
-        stl_mb=costs.STL_BYTES * triangles / 1e6,
+        stl_mb=costs.FILE_BYTES["stl"] * triangles / 1e6,
         seconds=seconds,
     )

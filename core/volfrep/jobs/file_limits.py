@@ -13,7 +13,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
-from ..design.costs import STL_BYTES
 from ..design.file_limits import FileLimits
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import DEFAULT_RELATIVE_DEVIATION
@@ -59,7 +58,7 @@ def fit_within(
     limits: FileLimits,
     expect: Callable[[LatticeSpec], float],
     make: Callable[[LatticeSpec], tuple[T, int, float]],
-    each: float = 0.0,
+    each: float,
 ) -> Fitted[T]:
     """Make a file with the finest facets, none finer than asked for, that keeps within limits.
 
@@ -68,7 +67,7 @@ def fit_within(
         limits: of the file.
         expect: about how many triangles a specification has.
         make: makes one; gives it, its triangles and the size of its file in megabytes.
-        each: bytes that a triangle takes at least in the file.
+        each: bytes that a triangle takes in the file, about.
 
     Raises:
         VolfrepError: not even the coarsest facets that keep its struts round, or its walls whole,
@@ -82,7 +81,7 @@ def fit_within(
     if told > SLOW and _used(limits, told, each * told / 1e6) > SURELY:
         raise _too_many(limits, coarsest, f"would have about {round_off(told)} triangles")
     low, high = coarsest, finest
-    facets, best = _first(spec, limits, expect, coarsest, finest), None
+    facets, best = _first(spec, limits, expect, each, coarsest, finest), None
     left = set(range(coarsest, finest + 1))
     for _ in range(MOST_FILES):
         tried = spec if facets == finest else _with(spec, facets)
@@ -179,6 +178,7 @@ def _first(
     spec: LatticeSpec,
     limits: FileLimits,
     expect: Callable[[LatticeSpec], float],
+    each: float,
     coarsest: int,
     finest: int,
 ) -> int:
@@ -187,7 +187,7 @@ def _first(
     while low < high:
         facets = (low + high + 1) // 2
         triangles = expect(spec if facets == finest else _with(spec, facets))
-        if _used(limits, triangles, STL_BYTES * triangles / 1e6) <= 1.0:
+        if _used(limits, triangles, each * triangles / 1e6) <= 1.0:
             low = facets
         else:
             high = facets - 1

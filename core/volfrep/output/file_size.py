@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from ..design.costs import STL_BYTES
+from ..design.costs import FILE_BYTES
 from ..design.file_limits import FileLimits
 from ..design.forecast import forecast_fill
 from ..design.spec import LatticeSpec
@@ -65,8 +65,7 @@ def keep_within(
         size = written_size(made, form) if limits.megabytes is not None else 0.0
         return made, made.triangles, size
 
-    each = STL_BYTES if form.name == "stl" else 0.0  # others are packed, or longer
-    found = fit_within(spec, limits, expect, tried, each)
+    found = fit_within(spec, limits, expect, tried, FILE_BYTES[form.name])
     return found.made, (found.note,) if found.note else ()
 
 

@@ -11,9 +11,11 @@ import samples
 from command import run
 from volfrep import LatticeSpec, VolfrepError, block, fill, mesh_network, size
 from volfrep.design.cells import find_cell
+from volfrep.design.costs import FILE_BYTES
 from volfrep.design.file_limits import SERVICES, FileLimits, limits_of
 from volfrep.io.write.stl import write_stl
 from volfrep.jobs.file_limits import fit_within
+from volfrep.output.form import files
 
 BOX = samples.box((30.0, 20.0, 20.0))
 
@@ -149,6 +151,7 @@ def test_finer_facets_that_are_fewer_are_found(most, facets):
         spec, FileLimits(most, None),
         lambda wanted: 983_494 * (wanted.facets_along_cell / 18) ** 2,
         lambda wanted: ("", DIVIDED[wanted.facets_along_cell], 0.0),
+        50.0,
     )  # fmt: skip
     assert made.spec.facets_along_cell == facets
     assert 0.7 <= made.used <= 1.0
@@ -159,6 +162,15 @@ def test_what_is_far_too_much_is_refused_before_it_is_made(limits):
     spec = LatticeSpec(find_cell("BCC"), 4.0, strut_radius=0.4)
     with pytest.raises(VolfrepError, match="would have about 6,400,000 triangles, more than"):
         fit_within(spec, limits, lambda _: 6.38e6, pytest.fail, 50.0)
+
+
+@pytest.mark.parametrize("form", [pytest.param(f, id=f.name) for f in files() if f.bytes_by])
+def test_what_a_triangle_takes_in_a_file_is_known(form, tmp_path):
+    part = block((3, 3, 3), cell="Octet", cell_size=10, strut_radius=1)
+    path = tmp_path / f"block{form.suffixes[0]}"
+    part.save(path)
+    told = FILE_BYTES[form.name] * part.report.triangles
+    assert path.stat().st_size == pytest.approx(told, rel=0.1)
 
 
 def test_services_are_known_by_name_source_and_date():

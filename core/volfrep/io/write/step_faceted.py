@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...design.costs import FILE_BYTES
 from ...mesh.brep import FacetedBrep, faceted_brep
 from ...mesh.triangle_mesh import TriangleMesh, compact
 from ...util.errors import VolfrepError
@@ -24,8 +25,7 @@ from .step import CLOSING, CONTEXT, FIRST_FREE, PLACEMENT, POINT, REAL, opening,
 
 #: No program reads more of these faces in reasonable time (FreeCAD: a minute for a tenth).
 MAX_TRIANGLES = 1_000_000
-#: Bytes and seconds of a file, per triangle; measured on spheres of 1,000 to 500,000 triangles.
-BYTES_PER_TRIANGLE = 760
+#: Seconds of a file, per triangle; measured on spheres of 1,000 to 500,000 triangles.
 SECONDS_PER_TRIANGLE = 1.5e-5
 
 _VERTEX = f"#%d=CARTESIAN_POINT('',{POINT});\n#%d=VERTEX_POINT('',#%d);\n"
@@ -65,7 +65,7 @@ def write_step_faceted(
         )
     brep = faceted_brep(compact(mesh))
     with replacing(path) as file:
-        written, total = 0, BYTES_PER_TRIANGLE * len(mesh.triangles)
+        written, total = 0, FILE_BYTES["step"] * len(mesh.triangles)
         for piece in _pieces(brep, Path(path).stem):
             file.write(piece)
             written += len(piece)
@@ -75,7 +75,7 @@ def write_step_faceted(
 
 def predict_faceted(triangles: int) -> tuple[float, float]:
     """Seconds and megabytes of the file of so many triangles."""
-    return SECONDS_PER_TRIANGLE * triangles, 1e-6 * BYTES_PER_TRIANGLE * triangles
+    return SECONDS_PER_TRIANGLE * triangles, 1e-6 * FILE_BYTES["step"] * triangles
 
 
 def _pieces(brep: FacetedBrep, name: str) -> Iterator[bytes]:

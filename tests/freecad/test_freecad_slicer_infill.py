@@ -26,7 +26,7 @@ def _coarse(monkeypatch):
 
 @pytest.fixture
 def bands(doc, box):
-    obj = make_slicer_infill(doc, box, Bands=3, Reach=4)
+    obj = make_slicer_infill(doc, box, Bands=3, Reach=6)
     doc.recompute()
     assert obj.isValid(), obj.getStatusString()
     return obj

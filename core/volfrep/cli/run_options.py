@@ -387,7 +387,7 @@ RUN_OPTIONS = (
         DENSITY_GROUP, default="",
     ),
     RunOption(
-        "bands", ("infill",), "how many densities there are, 2 to 8 (default 5)", "N",
+        "bands", ("infill",), "densities there are at most, 2 to 8 (default 5)", "N",
         DENSITY_GROUP, int, 5,
     ),
     RunOption(

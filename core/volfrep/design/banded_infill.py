@@ -49,7 +49,8 @@ class BandedInfill:
         column: which values of the file.
         curve: value:density pairs in place of start and end, as "0:10,80:60".
         formula: of x, y and z in mm; gives percent.
-        bands: at most; bands with nothing in them are left out.
+        bands: at most; there are fewer where most would be narrower than 3.3 lines, and bands with
+            nothing in them are left out.
         pattern: of `PATTERNS`.
         walls: lines side by side.
         top_layers: solid ones below faces that look up.

@@ -70,6 +70,12 @@ def test_walls_and_solid_layers_are_counted():
     assert plain.filament == pytest.approx(48000 - 0.8 * inner, rel=0.01)
 
 
+def test_bands_are_so_few_that_most_are_wide():
+    for reach, count in ((4.0, 3), (8.0, 5)):
+        made = slicer_infill(BOX, start=10, end=50, reach=reach, line_width=WIDTH)
+        assert len(made.bands) == count
+
+
 @pytest.mark.costly
 def test_a_formula_says_the_density_at_every_place():
     made = slicer_infill(BOX, grading="formula", formula="20 + 30 * x / 60", **BARE)
@@ -110,13 +116,16 @@ def test_what_makes_no_sense_is_refused_in_a_sentence(wanted, said):
             samples.sphere(20.0),
             {"start": 15, "end": 50, "reach": 12, "bands": 3, "top_layers": 0, "bottom_layers": 0},
         ),
+        # Five bands would be of two lines each, and 5 and 7 % off.
+        (BOX, {"start": 10, "end": 50, "reach": 4, "walls": 3}),
+        (samples.box((50.0, 8.0, 30.0)), {"start": 10, "end": 50, "reach": 4, "walls": 3}),
         # Solid layers on slopes are widened where they are narrow.
         (samples.sphere(20.0), {"start": 15, "end": 50, "reach": 12, "bands": 3}),
         (parts.at_hand("ge_bracket.stl", "bracket"), {"start": 10, "end": 50, "reach": 6}),
     ],
 )
 def test_prusa_slicer_lays_the_filament_that_was_told(part, wanted, tmp_path: Path):
-    made = slicer_infill(part, line_width=WIDTH, walls=2, **wanted)
+    made = slicer_infill(part, **{"line_width": WIDTH, "walls": 2, **wanted})
     path = tmp_path / "part.3mf"
     made.save(path)
     assert float(prusa_info(path)["volume"]) == pytest.approx(made.solid.volume, rel=1e-4)

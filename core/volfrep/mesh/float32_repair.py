@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from ..util.hands import Hands
 from ..util.ragged import rows_of
 from ..util.threads import in_threads
 from ..util.types import Bools, Ints
@@ -50,14 +51,16 @@ def remove_slivers(mesh: TriangleMesh, tolerance: float) -> TriangleMesh:
 
 
 def without_slivers(
-    mesh: TriangleMesh, tolerance: float, among: int | None = None
+    mesh: TriangleMesh, tolerance: float, among: Ints | None = None
 ) -> tuple[TriangleMesh, Bools, Ints]:
     """As `remove_slivers`, with (m,) which triangles were not there, or elsewhere.
 
-    And (m,) which one each triangle was, -1 for these. With `among` only so many of the first are
-    looked at.
+    And (m,) which one each triangle was, -1 for these. With `among` only these are looked at.
     """
-    thin = _slivers(mesh.vertices, mesh.triangles[:among], tolerance)
+    if among is None:
+        thin = slivers(mesh, tolerance)
+    else:
+        thin = among[_slivers(mesh.vertices, mesh.triangles[among], tolerance)]
     result, new, was = _rebuilt(mesh, thin, tolerance)
     return mesh if result is mesh else compact(result, owned=True), new, was
 
@@ -121,8 +124,12 @@ def _names(triangles: NDArray[np.int32]) -> NDArray[np.uint64]:
     return name
 
 
+def slivers(mesh: TriangleMesh, tolerance: float) -> Ints:
+    """The triangles with an edge or a height below the tolerance, mm."""
+    return _slivers(mesh.vertices, mesh.triangles, tolerance)
+
+
 def _slivers(points: NDArray[np.float64], triangles: NDArray[np.int32], tolerance: float) -> Ints:
-    """The triangles with an edge or a height below the tolerance."""
     columns = points.T
 
     def block(start: int) -> Ints:
@@ -310,7 +317,9 @@ def _is_thin(corners: NDArray[np.float64], tolerance: float) -> Bools:
     return result
 
 
-def separate_vertices(mesh: TriangleMesh, precision: float) -> TriangleMesh:
+def separate_vertices(
+    mesh: TriangleMesh, precision: float, hands: Hands | None = None
+) -> TriangleMesh:
     """The mesh with no two vertices that single precision would take for one, where possible.
 
     Where two sheets of a surface touch, a reader that merges equal corners finds edges of four
@@ -320,9 +329,10 @@ def separate_vertices(mesh: TriangleMesh, precision: float) -> TriangleMesh:
     Args:
         mesh: closed.
         precision: `shortest_edge` of the part, mm.
+        hands: as of `merging_vertices`.
     """
     for attempt in range(1, PASSES + 1):
-        twins = merging_vertices(mesh)
+        twins = merging_vertices(mesh, hands)
         if not len(twins):
             return mesh
         part = mesh.triangles[touching(vertices_of(twins, len(mesh.vertices)), mesh.triangles)]

@@ -24,7 +24,7 @@ import numpy as np
 
 from ..design.skins.own_faces import Thicknesses
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.proximity import SurfaceIndex, index_surface
+from ..spatial.proximity import SharedIndex, SurfaceIndex, index_surface, near_shared
 from ..spatial.rays import inside_points
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
@@ -32,6 +32,8 @@ from .thickness_field import STEEPEST, ThicknessField
 
 #: Points of one step between two looks at the cancel button.
 POINTS_PER_STEP = 40_000
+#: Points that a worker is asked for at a time; what is no more is looked up here.
+POINTS_PER_CALL = 1 << 11
 #: How far the cavity reaches beyond the open faces, in thicknesses of the skin.
 BEYOND = 0.5
 
@@ -45,19 +47,28 @@ class Depth:
         thickness: of the wall, mm; of one that follows a field the least.
         monitor: asked for a cancel between steps.
         lengths: the field that the thickness follows; None for one thickness.
+        shared: the index for the monitor's hands; None: threads look up the distances.
     """
 
     index: SurfaceIndex
     thickness: float
     monitor: Monitor
     lengths: ThicknessField | None = field(default=None, kw_only=True)
+    shared: SharedIndex | None = field(default=None, kw_only=True)
 
     def nearest(self, points: Floats) -> tuple[Floats, Floats]:
         """(n, 3) closest points of the outer surface and (n,) distances, not signed, mm."""
-        parts = []
-        for start in range(0, len(points), POINTS_PER_STEP):
-            self.monitor.tick()
-            parts.append(self.index.near(points[start : start + POINTS_PER_STEP]))
+        parts, shared = [], self.shared
+        if shared is None or len(points) <= POINTS_PER_CALL:
+            for start in range(0, len(points), POINTS_PER_STEP):
+                self.monitor.tick()
+                parts.append(self.index.near(points[start : start + POINTS_PER_STEP]))
+        else:
+            starts = range(0, len(points), POINTS_PER_CALL)
+            given = ((shared, points[start : start + POINTS_PER_CALL]) for start in starts)
+            for found in self.monitor.hands.each(near_shared, given):
+                self.monitor.tick()
+                parts.append(found)
         if not parts:
             return np.zeros((0, 3)), np.zeros(0)
         closest, distance = (np.concatenate(values) for values in zip(*parts, strict=True))

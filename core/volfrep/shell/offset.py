@@ -19,7 +19,7 @@ import numpy as np
 from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
 from ..spatial.even_points import even_points
-from ..spatial.proximity import closest_points, index_surface
+from ..spatial.proximity import closest_points, index_surface, sharing_index
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
@@ -28,7 +28,7 @@ from .adaptive_contour import find_offset_surface
 from .decimation import simplify
 from .depth import Depth, open_depth
 from .sampled_depth import DepthField, cube_grid
-from .smooth_regions import find_smooth_regions
+from .smooth_regions import SmoothRegions, find_smooth_regions
 
 #: Edge of the coarsest cubes in units of the thickness; and the least number of them along the
 #: part's diagonal.
@@ -100,7 +100,6 @@ def find_cavity(
     cube = min(CUBE * thickness, diagonal / CUBES_ALONG_DIAGONAL)
     monitor.tick(0.0)
     spacing = SAMPLE_SPACING * thickness
-    plain = None
     if uneven is not None:
         _refuse_too_thin(solid, thickness, solid.area / cube**2, cube)
         depth = uneven(spacing)
@@ -113,10 +112,18 @@ def find_cavity(
         _refuse_too_thin(solid, thickness, plain.cubes, cube)
         sampled = (plain.samples, plain.owner)
         index = monitor.call(lambda: index_surface(solid, spacing, sampled))
-        depth = Depth(index, thickness, monitor)
+        with sharing_index(index, monitor.hands) as shared:
+            depth = Depth(index, thickness, monitor, shared=shared)
+            return _found(solid, depth, cube, plain)
     else:
         _refuse_too_thin(solid, thickness, solid.area / cube**2, cube)
         depth = open_depth(solid, is_open, thickness, spacing, monitor)
+    return _found(solid, depth, cube, None)
+
+
+def _found(solid: TriangleMesh, depth: Depth, cube: float, plain: SmoothRegions | None) -> Cavity:
+    """The wall of a depth, by cubes of an edge in mm."""
+    monitor = depth.monitor
     field = DepthField(solid, depth, cube, plain)
     monitor.tick(0.1)
     surface = find_offset_surface(field)

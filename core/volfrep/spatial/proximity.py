@@ -9,7 +9,10 @@ one near. Places in the order of their Morton codes (G. M. Morton, 1966) mostly 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -18,6 +21,7 @@ from numpy.typing import NDArray
 from ..mesh.remesh import normals, unit_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
+from ..util.hands import Hands, Shared
 from ..util.ragged import spread
 from ..util.threads import in_threads, threads
 from ..util.types import Floats, Ints
@@ -224,10 +228,7 @@ class SurfaceIndex:
         stay = ~gone[self.triangle_of_sample]
         samples = np.concatenate([self.tree.data[stay], border])
         owners = np.concatenate([self.triangle_of_sample[stay], triangle[owner].astype(np.int32)])
-        from scipy.spatial import cKDTree  # slow to load
-
-        tree = cKDTree(samples, balanced_tree=False, compact_nodes=False, leafsize=32)
-        return SurfaceIndex(self.corners, across, tree, owners, self.spacing)
+        return SurfaceIndex(self.corners, across, _tree(samples), owners, self.spacing)
 
     def near(self, points: Floats) -> tuple[Floats, Floats]:
         """The closest surface points, and their distances, by sample and edge walk.
@@ -320,6 +321,47 @@ class SurfaceIndex:
         return closest, np.sqrt(squared), triangle, on_edge
 
 
+@dataclass(frozen=True)
+class SharedIndex:
+    """A `SurfaceIndex` for other processes, which make its tree anew; attributes as of that."""
+
+    corners: Shared
+    across: Shared
+    samples: Shared
+    triangle_of_sample: Shared
+    spacing: float
+
+
+@contextmanager
+def sharing_index(index: SurfaceIndex, hands: Hands) -> Iterator[SharedIndex | None]:
+    """An index for the calls of hands (`near_shared`); None where they are threads."""
+    if not hands.are_others:
+        yield None
+        return
+    arrays = index.corners, index.across, index.tree.data, index.triangle_of_sample
+    with hands.sharing(*arrays) as (corners, across, samples, triangles):
+        yield SharedIndex(corners, across, samples, triangles, index.spacing)
+
+
+def near_shared(shared: SharedIndex, points: Floats) -> tuple[Floats, Floats]:
+    """As `SurfaceIndex.near`."""
+    return _opened(shared).near(points)
+
+
+@lru_cache(maxsize=1)
+def _opened(shared: SharedIndex) -> SurfaceIndex:
+    # Copies, so that the files are closed.
+    arrays = shared.corners, shared.across, shared.samples, shared.triangle_of_sample
+    corners, across, samples, triangles = (np.array(each.array) for each in arrays)
+    return SurfaceIndex(corners, across, _tree(samples), triangles, shared.spacing)
+
+
+def _tree(samples: Floats) -> Any:
+    from scipy.spatial import cKDTree  # slow to load
+
+    return cKDTree(samples, balanced_tree=False, compact_nodes=False, leafsize=32)
+
+
 def index_surface(
     mesh: TriangleMesh, spacing: float, sampled: tuple[Floats, Ints] | None = None
 ) -> SurfaceIndex:
@@ -345,10 +387,7 @@ def index_surface(
     on_edges = sample_reentrant_edges(corners, unit_normals(corners), across, spacing)
     samples = np.concatenate([samples, on_edges[0]])
     triangle = np.concatenate([owner, on_edges[1]]).astype(np.int32)
-    from scipy.spatial import cKDTree  # slow to load
-
-    tree = cKDTree(samples, balanced_tree=False, compact_nodes=False, leafsize=32)
-    return SurfaceIndex(corners, across, tree, triangle, spacing)
+    return SurfaceIndex(corners, across, _tree(samples), triangle, spacing)
 
 
 def neighbours(mesh: TriangleMesh) -> Ints:

@@ -69,8 +69,9 @@ ROOM = 0.15
 #: The most cells along the longest side of the grid by which triangles near others are picked.
 MOST_CELLS = 160
 #: Of a triangle it is known whether the surface turns back at its edges; it does at one of them;
-#: it crosses nothing of its part, and meets nothing of another one.
-JUDGED, TURNED, APART = 1, 2, 4
+#: it crosses nothing of its part, and meets nothing of another one; it is no sliver of the
+#: precision that goes with the step.
+JUDGED, TURNED, APART, SOUND = 1, 2, 4, 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +96,7 @@ class Looks:
     """What is known of the triangles of a mesh before all of it is looked at.
 
     Attributes:
-        marks: (m,) uint8, for each triangle the sum of `JUDGED`, `TURNED` and `APART`.
+        marks: (m,) uint8, for each triangle the sum of `JUDGED`, `TURNED`, `APART` and `SOUND`.
         step: of the decimals that a text resolves, for which they are apart, mm.
     """
 
@@ -120,6 +121,11 @@ class Looks:
         marks = np.where(was < 0, np.uint8(0), self.marks[was])
         marks[beside] &= np.uint8(APART)
         return Looks(marks, self.step)
+
+    @property
+    def unsound(self) -> Ints:
+        """Triangles that may be slivers."""
+        return np.flatnonzero(self.marks & SOUND == 0)
 
     @property
     def uncrossed(self) -> Bools:

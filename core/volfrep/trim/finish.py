@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh.float32_repair import (
+    STEPS,
     edge_within,
     separate_vertices,
     without_slivers,
@@ -54,7 +55,10 @@ def tidy(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimmed
         precision: `shortest_edge` of the part, mm.
         monitor: for cancel.
     """
-    smooth, new, was = without_slivers(surface.mesh, precision)
+    looks = surface.looks
+    is_known = looks is not None and looks.step * STEPS == precision
+    unsound = looks.unsound if looks is not None and is_known else None
+    smooth, new, was = without_slivers(surface.mesh, precision, unsound)
     release_memory()
     if not new.any():
         return surface.on(smooth, surface.looks and surface.looks.of(was))
@@ -104,7 +108,7 @@ def finish(
             file can hold it; the text says where.
     """
     mesh = surface.mesh
-    apart = separate_vertices(mesh, edge_within(quality.bounds))
+    apart = separate_vertices(mesh, edge_within(quality.bounds), monitor.hands)
     if apart is not mesh:
         changed = surface.on(apart)
         wider = _with_reached(surface, changed, monitor)

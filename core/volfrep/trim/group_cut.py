@@ -20,11 +20,11 @@ from numpy.typing import NDArray
 from ..lattice.assembly import facets, neighbour_missing
 from ..lattice.placed_octants import Placed
 from ..mesh.booleans import from_library, to_library
-from ..mesh.float32_repair import STEPS, without_inner_slivers
-from ..mesh.topology import open_vertices
+from ..mesh.float32_repair import STEPS, slivers, without_inner_slivers
+from ..mesh.topology import open_vertices, touching, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
 from ..spatial.rays import inside_points
-from ..spatial.resolve_crossings import Looks, look_at
+from ..spatial.resolve_crossings import SOUND, Looks, look_at
 from ..spatial.self_intersection import crossing_triangles, meeting_boxes
 from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
@@ -124,7 +124,7 @@ def cut_group(group: Group, monitor: Monitor | None = None) -> Piece:
 
 
 def _looked_at(piece: Piece, group: Group, monitor: Monitor) -> Piece:
-    """The piece with what its own triangles tell of folds and of facets that cross there."""
+    """The piece with what its own triangles tell of slivers, of folds and of facets that cross."""
     mesh, placed, step = piece.mesh, group.placed, group.precision / STEPS
     layout, far = placed.layout, CLEAR_STEPS * step
     half = 0.5 * layout.grid.cell_size
@@ -157,6 +157,10 @@ def _looked_at(piece: Piece, group: Group, monitor: Monitor) -> Piece:
 
     deformed = placed.points is not None
     looks = monitor.call(lambda: look_at(mesh, piece.rim, deformed, step, alone, Monitor()))
+    # Where it is joined its vertices may move a little.
+    sound = ~touching(vertices_of(piece.rim, len(mesh.vertices)), mesh.triangles)
+    sound[slivers(mesh, group.precision)] = False
+    looks.marks[sound] |= SOUND
     return replace(piece, looks=looks)
 
 

@@ -5,19 +5,32 @@ import numpy as np
 import pytest
 
 from volfrep.mesh.precision import merging
+from volfrep.process.pool import hands_of, processes
+from volfrep.util.hands import Hands
 from volfrep.util.threads import use_threads
+
+
+def found_twins(hands: Hands) -> set[tuple[int, int]]:
+    points = np.random.default_rng(0).uniform(-50.0, 50.0, (100_000, 3))
+    points[[99_000, 40_000, 7]] = points[[12, 40_001, 70_007]]
+    points[12] += 1e-9  # less than a step of single precision
+    pairs = merging(points, 1e-6, hands).reshape(-1, 2)
+    return {(min(pair), max(pair)) for pair in pairs.tolist()}
+
+
+TWINS = {(12, 99_000), (40_000, 40_001), (7, 70_007)}
 
 
 @pytest.mark.parametrize("count", [1, 3])
 def test_twins_among_many_points_are_found_on_any_threads(count: int) -> None:
-    points = np.random.default_rng(0).uniform(-50.0, 50.0, (100_000, 3))
-    points[[99_000, 40_000, 7]] = points[[12, 40_001, 70_007]]
-    points[12] += 1e-9  # less than a step of single precision
     use_threads(count)
     try:
-        twins = merging(points, 1e-6).reshape(-1, 2)
+        assert found_twins(Hands()) == TWINS
     finally:
         use_threads(0)
-    assert {tuple(sorted(pair)) for pair in twins.tolist()} == {
-        (12, 99_000), (40_000, 40_001), (7, 70_007),
-    }  # fmt: skip
+
+
+@pytest.mark.costly
+def test_workers_find_them_too() -> None:
+    with processes(2) as executor:
+        assert found_twins(hands_of(executor)) == TWINS

@@ -18,7 +18,7 @@ from volfrep.grid.activation import make_grid
 from volfrep.grid.motion import Motion
 from volfrep.grid.placement import NUDGE
 from volfrep.mesh import quality
-from volfrep.mesh.float32_repair import shortest_edge
+from volfrep.mesh.float32_repair import shortest_edge, slivers
 from volfrep.mesh.precision import decimal_step
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
@@ -122,6 +122,8 @@ def test_what_groups_tell_of_folds_is_what_a_look_at_all_of_it_finds(cavity, mon
     assert looks.uncrossed.sum() > 0.5 * one.among.sum(), "few are left to be looked at"
     np.testing.assert_array_equal(one.among, two.among)
     np.testing.assert_array_equal(one.pairs, two.pairs)
+    assert len(looks.unsound) < 0.2 * len(mesh.triangles)
+    assert np.isin(slivers(mesh, shortest_edge(domain)), looks.unsound).all()
     # Where nothing is known all of it is looked at.
     unknown = replace(looks, marks=np.zeros_like(looks.marks))
     np.testing.assert_array_equal(folds_of(mesh, Monitor(), looks=unknown).among, one.among)

@@ -222,7 +222,7 @@ def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
 def test_slivers_away_from_all_octants_take_none_of_these_along(monkeypatch):
     """Whatever edges they have: no octant has any there."""
 
-    def rebuilt(mesh, tolerance):
+    def rebuilt(mesh, tolerance, among=None):
         corner = mesh.vertices.sum(axis=1).argmin()
         new = (mesh.triangles == corner).any(axis=1)
         return mesh, new, np.arange(len(new))

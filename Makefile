@@ -138,7 +138,7 @@ catalogue: setup ## cells that the catalogue lacks, and the charts of docs/cells
 crush-curves: setup ## the crush curves that ship and are missing (some seconds to a minute each)
 	@$(PYTHON) tools/crush_curves.py
 
-validate: setup ## predictions beside printed specimens, and the figures of docs/validation.md (5 min)
+validate: setup ## predictions beside printed specimens, the figures of docs/validation.md and of homogenised parts (15 min)
 	@$(PYTHON) tools/validate.py $(VALIDATE)
 
 torture: setup ## every broken, odd and real file beside what it must get

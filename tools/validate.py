@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""`make validate`: predictions beside printed specimens, and all figures of docs/validation.md.
+"""`make validate`: predictions beside printed specimens, homogenised parts beside beams.
+
+All figures of docs/validation.md, and of a table of docs/method.md.
 
     .venv/bin/python tools/validate.py [--page]
 
@@ -17,7 +19,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "core"), str(ROOT / "tools")]
 
-from validation import page  # noqa: E402
+from validation import homogenised, page  # noqa: E402
 from validation.predictions import benchmarks, growth, predict, specimens  # noqa: E402
 
 KEPT = ROOT / "tools" / "validation" / "predictions.json"
@@ -44,12 +46,20 @@ def computed() -> dict[str, Any]:
             row["name"]: float(f"{growth(row['cell'], row['densities']):.4g}") for row in series
         },
         "benchmarks": [asdict(row) for row in benchmarks()],
+        "homogenised": {cell: homogenised.of_cell(cell) for cell in homogenised.CELLS},
+        "gyroid": homogenised.of_gyroid(),
     }
 
 
-def made_page(text: str, found: dict[str, Any]) -> str:
-    """The page, of the specimens and of the predictions that were kept."""
-    return page.refreshed(text, page.blocks(*specimens(), found))
+def made_pages(found: dict[str, Any]) -> dict[Path, str]:
+    """The pages, of the specimens and of the predictions that were kept."""
+    blocks = {
+        page.PAGE: page.blocks(*specimens(), found),
+        page.METHOD: {"homogenised": page.homogenised_table(found)},
+    }
+    return {
+        path: page.refreshed(path.read_text(encoding="utf-8"), own) for path, own in blocks.items()
+    }
 
 
 def kept() -> dict[str, Any]:
@@ -62,8 +72,8 @@ def main() -> None:
     if "--page" not in sys.argv:
         KEPT.write_text(json.dumps(computed(), indent=1) + "\n", encoding="utf-8")
     found = kept()
-    text = page.PAGE.read_text(encoding="utf-8")
-    page.PAGE.write_text(made_page(text, found), encoding="utf-8")
+    for path, text in made_pages(found).items():
+        path.write_text(text, encoding="utf-8")
     page.plot(specimens()[0], found["specimens"])
 
 

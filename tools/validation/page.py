@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables, means and the plot of docs/validation.md."""
+"""Tables, means and the plot of docs/validation.md, and a table of docs/method.md."""
 
 from __future__ import annotations
 
@@ -12,9 +12,15 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "validation.md"
+METHOD = ROOT / "docs" / "method.md"
 PLOT = ROOT / "docs" / "images" / "validation.png"
-FIGURES = ("young", "strength", "energy")
-NAMES = {"young": "E, MPa", "strength": "strength, MPa", "energy": "energy to 50 %, J/g"}
+FIGURES = ("young", "strength", "plateau", "energy")
+NAMES = {
+    "young": "E, MPa",
+    "strength": "strength, MPa",
+    "plateau": "plateau, MPa",
+    "energy": "energy to 50 %, J/g",
+}
 
 
 def refreshed(text: str, blocks: dict[str, str]) -> str:
@@ -58,11 +64,11 @@ def best(own: dict[str, Any]) -> dict[str, float]:
 
 def specimen_table(specimens: list[dict[str, Any]], found: dict[str, Any]) -> str:
     """A line for each specimen, those of one source together: measured figures and predictions."""
-    lines = [f"| specimen | {' | '.join(NAMES.values())} |\n|---|---|---|---|\n"]
+    lines = [f"| specimen | {' | '.join(NAMES.values())} |\n|---|---|---|---|---|\n"]
     head = ""
     for row in specimens:
         if head != (head := f"{row['process']}, {row['material']}; {_source(row)}"):
-            lines.append(f"| **{head}** | | | |\n")
+            lines.append(f"| **{head}** | | | | |\n")
         told = " | ".join(_told(row, figure, found[row["name"]]) for figure in FIGURES)
         lines.append(f"| {row['name']}{_size(row)} | {told} |\n")
     return "".join(lines)
@@ -168,6 +174,21 @@ def benchmark_table(found: list[dict[str, Any]]) -> str:
             known += f" ({source})"
         lines.append(f"- {row['name']}: {known}, found {row['found']:.4g} ({error:+.1%})\n")
     return "".join(lines)
+
+
+def homogenised_table(found: dict[str, Any]) -> str:
+    """Errors of homogenised parts, %, and how much too stiffly their beams shear."""
+    rows = [
+        (cell, row["bent"], row["pulled"], row["sideways"], row["shear"])
+        for cell, row in found["homogenised"].items()
+    ]
+    lines = ["| cell | skin, bent | pulled | sideways | beams' shear |\n|---|---|---|---|---|\n"]
+    for cell, *errors in rows:
+        lines.append(f"| {cell} | {' | '.join(f'{100 * error:+.1f}' for error in errors)} |\n")
+    gyroid = found["gyroid"]
+    told = (f"{100 * gyroid[way]:+.1f}, {100 * gyroid[f'{way}, limit']:+.1f}" for way in
+            ("pulled", "sideways"))  # fmt: skip
+    return "".join([*lines, f"| Gyroid | | {' | '.join(told)} | |\n"])
 
 
 def plot(specimens: list[dict[str, Any]], found: dict[str, Any]) -> None:

@@ -11,6 +11,7 @@ import trimesh
 
 import volfrep
 from command import run
+from tools.validation.homogenised import WHOLE, block, compared, end, loaded, moved
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.continuum.bricks import Bricks, Shares, constants
 from volfrep.continuum.cell_law import split, stretched_tensors, turned
@@ -18,41 +19,17 @@ from volfrep.design.cells import LIBRARY, PAPERS
 from volfrep.design.grading import Orientation, RadiusGrading, SizeGrading
 from volfrep.design.parameters.spec_file import read_spec
 from volfrep.design.profile import Profile
-from volfrep.io.solid import check_solid
 from volfrep.jobs.homogenised import cell_law, homogenise_part
 from volfrep.jobs.sizing.sizing import solve_struts
-from volfrep.loads.load_cases import Force, Heat, LoadCase, LoadCases, Support
+from volfrep.loads.load_cases import Heat, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane, NearPoint
 from volfrep.mechanics.catalogue import catalogue
 from volfrep.mechanics.materials import find_material
 from volfrep.mechanics.tensor import young
-from volfrep.mesh.triangle_mesh import TriangleMesh
-from volfrep.sizing.tapered_beams import energies
 from volfrep.util.linalg import rotation
 
-WHOLE = {"cell_size": 10, "shell": 0, "boundary": "whole", "activation": "inside"}
 PA12 = find_material("PA12")
 FREE = (True, True, True)
-
-
-def block(x, y, z):
-    shape = trimesh.creation.box((x, y, z))
-    shape.apply_translation((x / 2, y / 2, z / 2))
-    return check_solid(TriangleMesh(shape.vertices, shape.faces.astype(np.int32)), "box")
-
-
-def end(x):
-    return InPlane((x, 0, 0), (1, 0, 0))
-
-
-def moved(length, displacement, name="pull"):
-    """One end held, the other moved, both free to turn."""
-    held = Support(end(0), turns=FREE)
-    return LoadCase(name, (held, Support(end(length), displacement, FREE)))
-
-
-def loaded(length, force=(0, 0, -100.0)):
-    return LoadCase("bend", (Support(end(0)),), (Force(end(length), force),))
 
 
 def test_bricks_of_any_stiffness_pass_the_patch_test_filled_or_half_filled():
@@ -103,20 +80,6 @@ def test_whole_cells_have_all_struts_of_their_free_faces():
     # Joints stiffen them by some percent.
     assert closed < made.report["cases"][0]["work_nmm"] < 1.08 * closed
     assert "3 cells" in made.report["notes"][0]
-
-
-def compared(solid, spec, case):
-    """Homogenised over beams: twice the energy."""
-    loads = LoadCases(PA12, (case,))
-    model, found = solve_struts(solid, spec, loads)
-    if case.loads:
-        beams = float(found.compliance[0])
-    else:
-        own = model.problem.structure.beams
-        flexibility = own.flexibility(model.problem.radii.of_struts(found.radii))
-        beams = float((energies(found.forces, found.forces)[:, :, 0] * flexibility).sum())
-    made = homogenise_part(solid, spec, loads)
-    return made.report["cases"][0]["work_nmm"] / beams
 
 
 @pytest.mark.costly

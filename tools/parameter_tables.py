@@ -64,7 +64,7 @@ def _options(wanted: str) -> str:
 
 def _option(row: RunOption) -> str:
     shape = "|".join(row.choices) or row.shape
-    names = f"-{row.short}, {row.option}" if row.short else row.option
+    names = ", ".join(row.names)
     option = f"{names} {shape}".strip()
     needed = (" (one is required)" if row.either else " (required)") if row.required else ""
     return f"- `{option}`: {row.help}{needed}\n"

@@ -55,7 +55,7 @@ class RunOption:
         place: where its value is kept, if not by its name.
         either: of options with the same word here at most one is given, or just one if they are
             required.
-        short: another name, of one letter.
+        short: another name, of one letter or a word.
     """
 
     name: str
@@ -78,6 +78,12 @@ class RunOption:
     def option(self) -> str:
         """As it is typed."""
         return f"--{self.name}"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All its names as they are typed."""
+        hyphens = "-" * min(len(self.short), 2)
+        return (hyphens + self.short, self.option) if self.short else (self.option,)
 
     @property
     def stored(self) -> str:
@@ -574,7 +580,7 @@ RUN_OPTIONS = (
               read=float),
     RunOption(
         "relative-density", ("find",), "from 0 to 1; with a modulus too the nearest cells are "
-        "first", "D", read=float,
+        "first", "D", read=float, short="density",
     ),
     RunOption(
         "plateau", ("find",), "in place of these, of a block crushed between plates; those that "
@@ -692,7 +698,6 @@ def add_run_options(parser: argparse.ArgumentParser, command: str) -> None:
             if row.either not in groups:
                 groups[row.either] = into.add_mutually_exclusive_group(required=row.required)
             into = groups[row.either]
-        names = ([f"-{row.short}"] if row.short else []) + [row.option]
         said: dict[str, Any] = {"help": row.help.replace("%", "%%"), "dest": row.stored}
         if row.shape:
             said |= {"default": row.default, "required": row.required and not row.either}
@@ -700,7 +705,7 @@ def add_run_options(parser: argparse.ArgumentParser, command: str) -> None:
             said |= {"type": row.read} if row.read is not None else {}
         else:
             said["action"] = "store_true"
-        into.add_argument(*names, **said)
+        into.add_argument(*row.names, **said)
 
 
 def refuse_extensions(options: argparse.Namespace, command: str, out: Path) -> None:

@@ -45,7 +45,7 @@ def test_what_makes_no_sense_is_refused(given, words):
 
 def test_the_command_tells_cells_with_their_errors(tmp_path, capsys):
     out = tmp_path / "found.json"
-    wanted = ("--modulus", 50, "--relative-density", 0.2, "--material", "PA12", "--direction", "z")
+    wanted = ("--modulus", 50, "--density", 0.2, "--material", "PA12", "--direction", "z")
     assert run("find", *wanted, "--most", 3, "--json", out) == 0
     head, *rows, more = capsys.readouterr().out.splitlines()
     assert "E along z, MPa" in head

@@ -38,20 +38,9 @@ def _go_through(title: str, steps: Any) -> Any:
 
 
 def _attach_view(obj: App.DocumentObject) -> None:
-    from .gui.view_provider import (
-        DesignStudyView,
-        LatticeInfillView,
-        PrintCheckView,
-        SlicerInfillView,
-    )
+    from .gui import view_provider
 
-    views = {
-        "LatticeInfill": LatticeInfillView,
-        "PrintCheck": PrintCheckView,
-        "DesignStudy": DesignStudyView,
-        "SlicerInfill": SlicerInfillView,
-    }
-    views[type(obj.Proxy).__name__](obj.ViewObject)
+    getattr(view_provider, f"{type(obj.Proxy).__name__}View")(obj.ViewObject)
 
 
 def _revive_view(obj: App.DocumentObject) -> None:

@@ -133,32 +133,31 @@ def no_write_to_the_path(root: Path) -> Iterator[str]:
                 yield f"{path}:{node.lineno}"
 
 
-@rule("Structuring; Vendoring")
-def imports_by_namespace(root: Path) -> Iterator[str]:
-    """No import of our modules but by the namespace."""
-    for path, tree in _python(root):
-        for node in ast.walk(tree):
-            names = []
-            if isinstance(node, ast.Import):
-                names = [alias.name for alias in node.names]
-            elif isinstance(node, ast.ImportFrom) and not node.level:
-                names = [node.module or ""]
-            for name in names:
-                if name.split(".")[0] in {"freecad_volfrep", "volfrep", "core"}:
-                    yield f"{path}:{node.lineno}: {name}"
-
-
-@rule("Qualities")
-def qt_by_the_wrapper(root: Path) -> Iterator[str]:
-    """Qt by FreeCAD's own wrapper, PySide."""
+def _imported(root: Path) -> Iterator[tuple[str, str]]:
+    """Where a module is imported, and its name; those named from where they are are not."""
     for path, tree in _python(root):
         for node in ast.walk(tree):
             names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
             if isinstance(node, ast.ImportFrom) and not node.level:
                 names = [node.module or ""]
             for name in names:
-                if re.match(r"(PySide[26]|PyQt[56])\b", name):
-                    yield f"{path}:{node.lineno}: {name}"
+                yield f"{path}:{node.lineno}", name
+
+
+@rule("Structuring; Vendoring")
+def imports_by_namespace(root: Path) -> Iterator[str]:
+    """No import of our modules but by the namespace."""
+    for place, name in _imported(root):
+        if name.split(".")[0] in {"freecad_volfrep", "volfrep", "core"}:
+            yield f"{place}: {name}"
+
+
+@rule("Qualities")
+def qt_by_the_wrapper(root: Path) -> Iterator[str]:
+    """Qt by FreeCAD's own wrapper, PySide."""
+    for place, name in _imported(root):
+        if re.match(r"(PySide[26]|PyQt[56])\b", name):
+            yield f"{place}: {name}"
 
 
 @rule("Allow-List")
@@ -262,14 +261,9 @@ def overview(root: Path) -> Iterator[str]:
 @rule("Qualities: external connections")
 def no_connections(root: Path) -> Iterator[str]:
     """Nothing is sent or fetched."""
-    for path, tree in _python(root):
-        for node in ast.walk(tree):
-            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
-            if isinstance(node, ast.ImportFrom) and not node.level:
-                names = [node.module or ""]
-            for name in names:
-                if re.match(r"(urllib\.request|http\.client|requests|httpx|aiohttp)\b", name):
-                    yield f"{path}:{node.lineno}: {name}"
+    for place, name in _imported(root):
+        if re.match(r"(urllib\.request|http\.client|requests|httpx|aiohttp)\b", name):
+            yield f"{place}: {name}"
 
 
 if __name__ == "__main__":

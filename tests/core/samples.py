@@ -8,6 +8,7 @@ import numpy as np
 import trimesh
 
 from volfrep.design.cells import make_cell
+from volfrep.io.solid import check_solid
 from volfrep.mesh.triangle_mesh import TriangleMesh
 
 #: A cell without any symmetry.
@@ -27,6 +28,13 @@ def _mesh(solid: manifold3d.Manifold) -> TriangleMesh:
 
 def box(size=(40.0, 30.0, 20.0), corner=(0.0, 0.0, 0.0)) -> TriangleMesh:
     return _mesh(manifold3d.Manifold.cube(size).translate(corner))
+
+
+def solid_block(x, y, z):
+    """A box at the origin, as 12 triangles that are proved."""
+    shape = trimesh.creation.box((x, y, z))
+    shape.apply_translation((x / 2, y / 2, z / 2))
+    return check_solid(TriangleMesh(shape.vertices, shape.faces.astype(np.int32)), "box")
 
 
 def sphere(radius=20.0, subdivisions=4) -> TriangleMesh:

@@ -125,6 +125,18 @@ def test_the_build_direction(tmp_path: Path, capsys: pytest.CaptureFixture[str])
         ("x.stl", ["--print-report", "FFF", "--build-direction", "0,1"], "takes 3 numbers"),
         ("x.3mf", ["--3mf", "both", "--fillet", "1"], "no fillets"),
         ("x.3mf", ["--3mf", "beams", "--fillet", "1"], "no fillets"),
+        ("x.stl", ["--step", "exact"], "give it the extension .step."),
+        ("x.step", ["--inp", "beams"], "give it the extension .inp"),
+        ("x.stl", ["--material", "A,1,0"], "give it the extension .inp"),
+        ("x.inp", ["--material", "STEEL"], "There is no material 'STEEL'"),
+        ("x.inp", ["--material", "ST EEL,1,0"], "must consist of letters"),
+        ("x.inp", ["--material", "STEEL,1,0.5"], "Poisson's ratio"),
+        ("x.inp", ["--3mf", "beams"], "give it the extension .3mf"),
+        ("x.inp", ["--report", "r.json"], "which --inp beams does without"),
+        ("x.step", ["--step", "wireframe", "--print-report", "FFF"], "--step wireframe does"),
+        ("x.inp", ["--fillet", "1"], "set the fillet to 0, or choose tetrahedra"),
+        ("x.step", ["--step", "wireframe", "--fillet", "1"], "or choose faceted"),
+        ("x.step", ["--step", "round"], "invalid choice: 'round'"),
     ],
 )
 def test_what_does_not_go_together(

@@ -220,37 +220,6 @@ def test_exact_surfaces_need_freecad(
     assert "there is no 'freecadcmd' on the PATH" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("name", "more", "message"),
-    [
-        ("x.stl", ["--step", "exact"], "give it the extension .step."),
-        ("x.step", ["--inp", "beams"], "give it the extension .inp"),
-        ("x.stl", ["--material", "A,1,0"], "give it the extension .inp"),
-        ("x.inp", ["--material", "STEEL"], "There is no material 'STEEL'"),
-        ("x.inp", ["--material", "ST EEL,1,0"], "must consist of letters"),
-        ("x.inp", ["--material", "STEEL,1,0.5"], "Poisson's ratio"),
-        ("x.inp", ["--3mf", "beams"], "give it the extension .3mf"),
-        ("x.inp", ["--report", "r.json"], "which --inp beams does without"),
-        ("x.step", ["--step", "wireframe", "--print-report", "FFF"], "--step wireframe does"),
-        ("x.inp", ["--fillet", "1"], "set the fillet to 0, or choose tetrahedra"),
-        ("x.step", ["--step", "wireframe", "--fillet", "1"], "or choose faceted"),
-        ("x.step", ["--step", "round"], "invalid choice: 'round'"),
-    ],
-)
-def test_what_does_not_go_together(
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-    name: str,
-    more: list[str],
-    message: str,
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    assert block(Path(name), *more) == 2
-    assert message in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_what_only_a_domain_cannot_give(
     tmp_path: Path, part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

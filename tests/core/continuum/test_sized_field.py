@@ -10,11 +10,11 @@ import trimesh
 
 import volfrep
 from command import run
+from samples import solid_block as block
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.continuum.thickness_field import FieldLimits, FieldProblem, _Search, evened
 from volfrep.design.scattered_field import PointField
 from volfrep.design.tpms.sheet import TpmsSheet
-from volfrep.io.solid import check_solid
 from volfrep.jobs.figures.sized_density import sized_densities
 from volfrep.jobs.homogenised import PartBricks, cell_law, homogenise_part
 from volfrep.jobs.infill import Infill
@@ -23,16 +23,9 @@ from volfrep.jobs.sizing.sizing import solve_struts
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
-from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.util.progress import Monitor
 
 PA12 = find_material("PA12")
-
-
-def block(x, y, z):
-    shape = trimesh.creation.box((x, y, z))
-    shape.apply_translation((x / 2, y / 2, z / 2))
-    return check_solid(TriangleMesh(shape.vertices, shape.faces.astype(np.int32)), "box")
 
 
 def end(x):

@@ -10,8 +10,8 @@ import shutil
 import manifold3d
 import numpy as np
 import pytest
-import trimesh
 
+from samples import solid_block as block
 from volfrep import LatticeSpec
 from volfrep.design.cells import PAPERS
 from volfrep.fem.calculix import solve
@@ -26,18 +26,11 @@ from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InBox, InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.mesh.booleans import as_manifold, as_mesh
-from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.reports.sizing_report import least_gain
 from volfrep.sizing.analysis import Limits, analyse
 from volfrep.util.errors import VolfrepError
 
 WHOLE = {"cell_size": 10, "shell": 0, "boundary": "whole", "activation": "inside"}
-
-
-def block(x, y, z):
-    shape = trimesh.creation.box((x, y, z))
-    shape.apply_translation((x / 2, y / 2, z / 2))
-    return check_solid(TriangleMesh(shape.vertices, shape.faces.astype(np.int32)), "box")
 
 
 def ell():

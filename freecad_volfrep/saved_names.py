@@ -33,6 +33,19 @@ def register_names() -> None:
                 sys.modules.setdefault(package + module, _StandIn(package, module))
 
 
+class SavesNothing:
+    """A proxy of which a document keeps the class alone: all else is in the properties."""
+
+    def dumps(self) -> None:
+        """Nothing to save beside the properties."""
+
+    def loads(self, state: Any) -> None:
+        """Nothing to restore."""
+
+    __getstate__ = dumps  # FreeCAD 0.20
+    __setstate__ = loads
+
+
 class _StandIn(ModuleType):
     """A module that has what another one has."""
 

@@ -19,7 +19,7 @@ from freecad_volfrep.features.infill.freshness import NOT_RECOMPUTED, STALE, why
 from freecad_volfrep.features.infill.lattice_infill import UP_TO_DATE
 from freecad_volfrep.features.infill.skin import is_just_made
 from freecad_volfrep.features.reports.statistics import infills_of
-from freecad_volfrep.saved_names import saved_module
+from freecad_volfrep.saved_names import SavesNothing, saved_module
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
@@ -328,7 +328,7 @@ class LatticeInfillView:
     __setstate__ = loads
 
 
-class PrintCheckView:
+class PrintCheckView(SavesNothing):
     """View provider of a print check: its icon, and its facets in red."""
 
     def __init__(self, view: Any) -> None:
@@ -339,17 +339,8 @@ class PrintCheckView:
         """Path of the tree's icon."""
         return str(ICONS / "print_check.svg")
 
-    def dumps(self) -> None:
-        """Nothing to save."""
 
-    def loads(self, state: Any) -> None:
-        """Nothing to restore."""
-
-    __getstate__ = dumps  # FreeCAD 0.20
-    __setstate__ = loads
-
-
-class DesignStudyView:
+class DesignStudyView(SavesNothing):
     """View provider of a design study: its icon, and its panel."""
 
     def __init__(self, view: Any) -> None:
@@ -375,15 +366,6 @@ class DesignStudyView:
     def unsetEdit(self, view: Any, mode: int = 0) -> bool:  # noqa: N802
         """Leave the panel to its own button."""
         return False
-
-    def dumps(self) -> None:
-        """Nothing to save."""
-
-    def loads(self, state: Any) -> None:
-        """Nothing to restore."""
-
-    __getstate__ = dumps  # FreeCAD 0.20
-    __setstate__ = loads
 
 
 # Saved files find the classes under these names.

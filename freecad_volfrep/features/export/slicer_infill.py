@@ -20,7 +20,7 @@ from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
-from freecad_volfrep.saved_names import saved_module
+from freecad_volfrep.saved_names import SavesNothing, saved_module
 from freecad_volfrep.sentences import localise, report_line
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import Cancelled, VolfrepError
@@ -95,7 +95,7 @@ PROPERTIES = (
 )  # fmt: skip
 
 
-class SlicerInfill:
+class SlicerInfill(SavesNothing):
     """Proxy of a ``Mesh::FeaturePython`` whose bands of density follow a solid and a field."""
 
     state = State.IDLE
@@ -151,15 +151,6 @@ class SlicerInfill:
         """Bring an object of an older file up to the present table of properties."""
         self._ensure_properties(obj)
         attach_view(obj)
-
-    def dumps(self) -> None:
-        """Nothing to save beside the properties."""
-
-    def loads(self, state: Any) -> None:
-        """Nothing to restore."""
-
-    __getstate__ = dumps  # FreeCAD 0.20
-    __setstate__ = loads
 
     def _ensure_properties(self, obj: App.DocumentObject) -> None:
         from volfrep.design.banded_words import PATTERNS

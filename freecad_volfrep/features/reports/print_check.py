@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import FreeCAD as App
 
@@ -15,7 +15,7 @@ from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
-from freecad_volfrep.saved_names import saved_module
+from freecad_volfrep.saved_names import SavesNothing, saved_module
 from freecad_volfrep.sentences import report_line
 from freecad_volfrep.translation import translate
 from volfrep.util.errors import Cancelled, VolfrepError
@@ -53,7 +53,7 @@ PROPERTIES = (
 )
 
 
-class PrintCheck:
+class PrintCheck(SavesNothing):
     """Proxy of a ``Mesh::FeaturePython`` that shows how a lattice infill suits a process.
 
     Its mesh is what of the infill's hangs over: red on the infill, which is translucent.
@@ -90,15 +90,6 @@ class PrintCheck:
     def onDocumentRestored(self, obj: App.DocumentObject) -> None:  # noqa: N802
         """Bring an object of an older file up to the present table of properties."""
         self._ensure_properties(obj)
-
-    def dumps(self) -> None:
-        """Nothing to save beside the properties."""
-
-    def loads(self, state: Any) -> None:
-        """Nothing to restore."""
-
-    __getstate__ = dumps  # FreeCAD 0.20
-    __setstate__ = loads
 
     def _ensure_properties(self, obj: App.DocumentObject) -> None:
         from volfrep.reports.processes import PROCESSES

@@ -23,7 +23,7 @@ from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.jobs.screen import attach_view
 from freecad_volfrep.features.properties.property_table import Property, add_missing, result
 from freecad_volfrep.features.properties.quantities import set_value
-from freecad_volfrep.saved_names import saved_module
+from freecad_volfrep.saved_names import SavesNothing, saved_module
 from freecad_volfrep.sentences import report_line
 from freecad_volfrep.translation import translate
 from volfrep.design.cells import LIBRARY
@@ -78,7 +78,7 @@ PROPERTIES = (
 )
 
 
-class DesignStudy:
+class DesignStudy(SavesNothing):
     """Proxy of an ``App::FeaturePython`` that holds the designs of a lattice infill."""
 
     def __init__(self, obj: App.DocumentObject) -> None:
@@ -92,15 +92,6 @@ class DesignStudy:
         """Bring an object of an older file up to the present table of properties."""
         add_missing(obj, PROPERTIES, {})
         attach_view(obj)
-
-    def dumps(self) -> None:
-        """Nothing to save beside the properties."""
-
-    def loads(self, state: Any) -> None:
-        """Nothing to restore."""
-
-    __getstate__ = dumps  # FreeCAD 0.20
-    __setstate__ = loads
 
 
 # Saved files find the class under this name.

@@ -11,7 +11,7 @@ import FreeCADGui as Gui
 from freecad_volfrep import ICONS
 from freecad_volfrep.gui.draw import drawing
 from freecad_volfrep.gui.qt import QtCore
-from freecad_volfrep.saved_names import saved_module
+from freecad_volfrep.saved_names import SavesNothing, saved_module
 
 from .band_colours import colours_of
 
@@ -26,7 +26,7 @@ CLEAR, CLEAREST = 0.62, 0.85
 SELECTION_STYLE = "BoundBox"
 
 
-class SlicerInfillView:
+class SlicerInfillView(SavesNothing):
     """View provider of a slicer infill: its icon, its panel, and a display mode of nested bands."""
 
     def __init__(self, view: Any) -> None:
@@ -92,15 +92,6 @@ class SlicerInfillView:
         if view.Object.Base is not None:
             view.Object.Base.Visibility = True
         return True
-
-    def dumps(self) -> None:
-        """Nothing to save."""
-
-    def loads(self, state: Any) -> None:
-        """Nothing to restore."""
-
-    __getstate__ = dumps  # FreeCAD 0.20
-    __setstate__ = loads
 
     def _draw_soon(self) -> None:
         """In a moment: while a step is undone, mesh and counts change one after the other."""

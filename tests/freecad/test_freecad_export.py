@@ -324,7 +324,7 @@ def test_an_extension_that_is_typed_says_more_than_the_kind_that_the_dialog_stan
     assert chosen_format("/a/part", axes, forms) == ("/a/part.step", axes)
     assert chosen_format("/a/part.cli", stl, forms)[1].content == "layers"
     assert chosen_format("/a/part.step", axes, forms) == ("/a/part.step", axes)
-    with pytest.raises(VolfrepError, match=r"'\.xyz' is not .* \.png or \.svg or \.cli\."):
+    with pytest.raises(VolfrepError, match=r"'\.xyz' is not .* \.png, \.svg or \.cli\."):
         chosen_format("/a/part.xyz", stl, forms)
 
 

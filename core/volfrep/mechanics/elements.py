@@ -79,9 +79,9 @@ def strain_matrices(points: Floats, edge: Floats | float = 1.0) -> Floats:
     return matrix.reshape(len(points), 6, 24)
 
 
-def part_centres(parts: int = PARTS) -> Floats:
-    """(parts^3, 3) the middles of an element's parts, in the unit cube."""
-    axis = (np.arange(parts) + 0.5) / parts
+def part_centres() -> Floats:
+    """(PARTS^3, 3) the middles of an element's parts, in the unit cube."""
+    axis = (np.arange(PARTS) + 0.5) / PARTS
     centres: Floats = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1)
     return centres.reshape(-1, 3)
 

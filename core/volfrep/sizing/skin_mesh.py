@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from ..mesh import remesh
 from ..mesh.topology import edge_keys
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.proximity import closest_points
+from ..spatial.proximity import NearestTriangles, closest_points
 from ..util.linalg import normalize
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
@@ -32,6 +32,8 @@ _NEEDLE, _NEEDLES_DEEP = 0.01, 4
 _PINNED_AT, _APART = 4, 0.3
 #: What is nearer than this part of the wanted length to a vertex, or to an edge, is there.
 _AT_VERTEX, _AT_EDGE = 0.2, 0.25
+#: The part's surface is sampled every so many times the wanted length.
+_SAMPLED = 0.2
 
 
 class _Creases:
@@ -108,15 +110,16 @@ def even_surface(
     """
     monitor = monitor or Monitor()
     vertices, triangles = mesh.vertices.copy(), mesh.triangles.astype(np.int64)
+    surface = NearestTriangles(mesh, _SAMPLED * edge)
     pinned = wanted = np.empty((0, 3))
     if places is not None and len(places):
-        wanted = closest_points(mesh, places)[0]
+        wanted = surface.closest(places)[0]
         near = cKDTree(wanted).query_pairs(_APART * edge, output_type="ndarray")
         wanted = np.delete(wanted, near.max(axis=1), axis=0)
     outwards = remesh.normals(mesh.vertices[mesh.triangles])
 
     def below(points: Floats) -> Floats:
-        return np.asarray(outwards[closest_points(mesh, points)[2]])
+        return np.asarray(outwards[surface.closest(points)[2]])
 
     may, allowed = _keeps_shape(below, _TINY * edge)
     for number in range(_PASSES):
@@ -143,7 +146,7 @@ def even_surface(
             triangles, _ = remesh.flip(vertices, triangles, _rounder(vertices, creases), _nothing)
             creases = _Creases(vertices, triangles, pinned, _TINY * edge)
         if number < _PASSES - 1:
-            vertices = _relaxed(vertices, triangles, creases, mesh)
+            vertices = _relaxed(vertices, triangles, creases, surface)
     return TriangleMesh(vertices, triangles.astype(np.int32))
 
 
@@ -266,7 +269,9 @@ def _rounder(vertices: Floats, creases: _Creases) -> Callable[[Ints, Ints], Floa
     return gain
 
 
-def _relaxed(vertices: Floats, triangles: Ints, creases: _Creases, mesh: TriangleMesh) -> Floats:
+def _relaxed(
+    vertices: Floats, triangles: Ints, creases: _Creases, surface: NearestTriangles
+) -> Floats:
     """Free vertices half-way towards the middle of their neighbours, back on the surface."""
     table = remesh.edges(triangles, len(vertices))
     both = np.concatenate([table.ends, table.ends[:, ::-1]])
@@ -276,7 +281,7 @@ def _relaxed(vertices: Floats, triangles: Ints, creases: _Creases, mesh: Triangl
     free = creases.rank == 0
     moved = 0.5 * (vertices + total / number[:, None])
     result = vertices.copy()
-    result[free] = closest_points(mesh, moved[free])[0]
+    result[free] = surface.closest(moved[free])[0]
     # A triangle that would turn over keeps its corners where they were, which may turn those
     # about it over, whose other corners have moved: these go back, too.
     old = remesh.normals(vertices[triangles])

@@ -67,29 +67,63 @@ def closest_points(mesh: TriangleMesh, points: Floats) -> tuple[Floats, Floats, 
     >>> place.tolist(), distance.round(6).tolist()
     ([[1.0, 1.0, 0.0], [2.0, 2.0, 0.0]], [3.0, 2.828427])
     """
-    if not len(mesh.triangles):
-        raise VolfrepError("The distance to an empty mesh is not defined: give it triangles.")
-    points = np.ascontiguousarray(points, np.float64).reshape(-1, 3)
-    corners = np.stack(mesh.corners(), axis=1)
-    boxes, order = _box_tree(corners)
-    from scipy.spatial import cKDTree  # slow to load
+    return NearestTriangles(mesh).closest(points)
 
-    seeds = cKDTree(corners.mean(axis=1))
-    closest = np.empty_like(points)
-    triangle = np.empty(len(points), np.int64)
-    pending = [
-        np.arange(start, min(start + POINTS_PER_STEP, len(points)))
-        for start in range(0, len(points), POINTS_PER_STEP)
-    ]
-    while pending:
-        part = pending.pop()
-        seed = seeds.query(points[part], workers=threads())[1]
-        found = _descend(corners, boxes, order, points[part], seed)
-        if found is None:  # too many triangles are equally near for one step
-            pending.extend(np.array_split(part, 2))
-        else:
-            closest[part], triangle[part] = found
-    return closest, np.linalg.norm(points - closest, axis=1), triangle
+
+class NearestTriangles:
+    """A mesh prepared for `closest_points` of many sets of points.
+
+    Args:
+        mesh: as there.
+        spacing: of points sampled on it, mm, where many of those asked for lie on it or next to
+            it: what is nearer than a sample is soon found then. None: it is not sampled.
+
+    Raises:
+        VolfrepError: the mesh is empty.
+    """
+
+    def __init__(self, mesh: TriangleMesh, spacing: float | None = None) -> None:
+        if not len(mesh.triangles):
+            raise VolfrepError("The distance to an empty mesh is not defined: give it triangles.")
+        from scipy.spatial import cKDTree  # slow to load
+
+        self._corners = np.stack(mesh.corners(), axis=1)
+        self._boxes, self._order = _box_tree(self._corners)
+        self._seeds = cKDTree(self._corners.mean(axis=1))
+        self._samples = None
+        if spacing is not None:
+            samples, self._owner = sample_triangles(self._corners, spacing)
+            self._samples = cKDTree(samples)
+
+    def closest(self, points: Floats) -> tuple[Floats, Floats, Ints]:
+        """As `closest_points` of the mesh."""
+        points = np.ascontiguousarray(points, np.float64).reshape(-1, 3)
+        closest = np.empty_like(points)
+        triangle = np.empty(len(points), np.int64)
+        pending = [
+            np.arange(start, min(start + POINTS_PER_STEP, len(points)))
+            for start in range(0, len(points), POINTS_PER_STEP)
+        ]
+        while pending:
+            part = pending.pop()
+            here = points[part]
+            seed = self._seeds.query(here, workers=threads())[1]
+            found = _descend(self._corners, self._boxes, self._order, here, seed, self._reach(here))
+            if found is None:  # too many triangles are equally near for one step
+                pending.extend(np.array_split(part, 2))
+            else:
+                closest[part], triangle[part] = found
+        return closest, np.linalg.norm(points - closest, axis=1), triangle
+
+    def _reach(self, points: Floats) -> Floats | None:
+        """(n,) squares of distances, mm^2, within which the nearest triangle is, from samples."""
+        if self._samples is None:
+            return None
+        near = self._owner[self._samples.query(points, workers=threads())[1]]
+        closest = closest_on_triangles(self._corners[near], points)[0]
+        # Boxes are as far as their triangles but for rounding.
+        slack = (1e-12 * np.abs(self._corners).max()) ** 2
+        return np.asarray(((points - closest) ** 2).sum(axis=1) * (1.0 + 1e-9) + slack)
 
 
 def _box_tree(corners: Floats) -> tuple[list[Floats], Ints]:
@@ -117,11 +151,17 @@ def _box_tree(corners: Floats) -> tuple[list[Floats], Ints]:
 
 
 def _descend(
-    corners: Floats, boxes: list[Floats], order: Ints, points: Floats, seed: Ints
+    corners: Floats,
+    boxes: list[Floats],
+    order: Ints,
+    points: Floats,
+    seed: Ints,
+    reach: Floats | None,
 ) -> tuple[Floats, Ints] | None:
     """Closest points and triangles; None where that would take too much memory at once."""
     best = closest_on_triangles(corners[seed], points)[0]
     squared = ((points - best) ** 2).sum(axis=1)
+    within = squared if reach is None else np.minimum(squared, reach)
     point, node = np.arange(len(points)), np.zeros(len(points), np.int64)
     for level in boxes[1:]:
         point, node = np.repeat(point, 2), np.repeat(2 * node, 2)
@@ -130,7 +170,7 @@ def _descend(
             return None
         box, p = level[node], points[point]
         gap = np.maximum(np.maximum(box[:, 0] - p, p - box[:, 1]), 0.0)
-        keep = (gap**2).sum(axis=1) < squared[point]
+        keep = _dot(gap, gap) < within[point]
         point, node = point[keep], node[keep]
     triangle = order[node]
     candidate = closest_on_triangles(corners[triangle], points[point])[0]

@@ -50,6 +50,7 @@ class Results:
         path = self.folder / "job.dat"
         return path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
 
+    @cached_property
     def displacements(self) -> list[tuple[Ints, Floats]]:
         """For every step that prints them: (n,) rows of nodes, and (n, 3) mm."""
         tables = []
@@ -136,7 +137,7 @@ def run(
                 f"CalculiX did not solve {name} within {seconds:g} s: use fewer or larger cells."
             ) from error
         results = Results(folder)
-        if done.returncode or len(results.displacements()) < steps:
+        if done.returncode or len(results.displacements) < steps:
             reason = [line for line in done.stdout.splitlines() if "ERROR" in line]
             detail = f": {reason[0].strip().rstrip('.')}" if reason else ""
             raise VolfrepError(f"CalculiX did not solve {name}{detail}.")
@@ -161,7 +162,7 @@ def solve(
         Cancelled: when the monitor says so.
     """
     with run([Path(deck).read_bytes()], f"'{deck}'", monitor, steps=1, seconds=seconds) as results:
-        node, displacements = results.displacements()[-1]
+        node, displacements = results.displacements[-1]
     result = np.zeros((int(node.max()) + 1, 3))
     result[node] = displacements
     return result

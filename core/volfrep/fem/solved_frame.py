@@ -140,7 +140,7 @@ def solve_frame(
         if with_modes:
             steps.append(f"*STEP\n*FREQUENCY\n{modes}\n*END STEP\n")
         with run(deck(fixed, steps), _NAME, monitor, steps=len(group)) as results:
-            for k, (number, values) in zip(group, results.displacements(), strict=False):
+            for k, (number, values) in zip(group, results.displacements, strict=False):
                 displacements[number, :, k] = values
             for k, (number, values) in zip(group, results.section_forces(), strict=False):
                 sections[number, :, k] = values[:, [2, 4, 5]]

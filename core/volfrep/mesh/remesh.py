@@ -15,7 +15,7 @@ from functools import partial
 
 import numpy as np
 
-from ..util.linalg import normalize
+from ..util.linalg import cross_columns, lengths, normalize
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
 from .topology import among_edges, edge_keys
@@ -67,11 +67,21 @@ def edges(triangles: Ints, vertex_count: int) -> Edges:
     )
 
 
+def side_lengths(points: Floats) -> tuple[Floats, Floats, Floats]:
+    """(m,) each, of (m, 3, 3) triangles: side k is between corners k and k + 1."""
+    one, two, three = points[:, 0], points[:, 1], points[:, 2]
+    return lengths(one - two), lengths(two - three), lengths(three - one)
+
+
+def longest_sides(points: Floats) -> Floats:
+    """(m,) of (m, 3, 3) triangles."""
+    a, b, c = side_lengths(points)
+    return np.asarray(np.maximum(np.maximum(a, b), c))
+
+
 def qualities(points: Floats) -> Floats:
     """(m,) 2 inradius / circumradius of (m, 3, 3) triangles: 1 equilateral, 0 degenerate."""
-    a = np.linalg.norm(points[:, 1] - points[:, 2], axis=1)
-    b = np.linalg.norm(points[:, 2] - points[:, 0], axis=1)
-    c = np.linalg.norm(points[:, 0] - points[:, 1], axis=1)
+    c, a, b = side_lengths(points)
     product = np.maximum(a * b * c, 1e-300)
     result: Floats = (b + c - a) * (c + a - b) * (a + b - c) / product
     return result
@@ -85,7 +95,8 @@ def worse_quality(a: Floats, b: Floats, left: Floats, right: Floats) -> Floats:
 
 def normals(points: Floats) -> Floats:
     """(m, 3) vectors of twice the area of (m, 3, 3) triangles."""
-    return np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+    one, two = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
+    return np.stack(cross_columns(list(one.T), list(two.T)), axis=1)
 
 
 def unit_normals(points: Floats) -> Floats:
@@ -100,8 +111,7 @@ def facet_normals(mesh: TriangleMesh) -> Floats:
 
 def heights(points: Floats) -> Floats:
     """(m,) the least heights of (m, 3, 3) triangles; zero of those without area."""
-    longest = np.linalg.norm(points - np.roll(points, 1, axis=1), axis=2).max(axis=1)
-    result: Floats = np.linalg.norm(normals(points), axis=1) / np.maximum(longest, 1e-300)
+    result: Floats = lengths(normals(points)) / np.maximum(longest_sides(points), 1e-300)
     return result
 
 
@@ -154,7 +164,7 @@ def collapse(
     count = len(vertices)
     table = edges(triangles, count)
     ends = table.ends
-    length = np.linalg.norm(vertices[ends[:, 0]] - vertices[ends[:, 1]], axis=1)
+    length = lengths(vertices[ends[:, 0]] - vertices[ends[:, 1]])
     swap = rules.rank[ends[:, 0]] > rules.rank[ends[:, 1]]
     from_to = np.where(swap[:, None], ends[:, ::-1], ends)
     candidate = np.flatnonzero((length < shortest) & (table.triangles[:, 1] >= 0))
@@ -194,13 +204,15 @@ def collapse(
     for side, other, moves in ((gone, kept, np.ones(len(gone), bool)), (kept, gone, free)):
         rows, owner = rows_of(corner_start, side)
         corners = triangles[corner_triangle[rows]]
-        affected = ~(corners == other[owner][:, None]).any(axis=1) & (moves & good)[owner]
+        one, two, three = corners.T
+        across = other[owner]
+        affected = (one != across) & (two != across) & (three != across) & (moves & good)[owner]
         corners, owner = corners[affected], owner[affected]
         before = vertices[corners]
         after = np.where(
             (corners == side[owner][:, None])[:, :, None], target[owner][:, None, :], before
         )
-        bad = np.linalg.norm(after - np.roll(after, 1, axis=1), axis=2).max(axis=1) > longest
+        bad = longest_sides(after) > longest
         # What takes longer is asked only where all else is good.
         for test in (rules.stays_good, rules.lastly):
             if test is None:
@@ -240,7 +252,7 @@ def stays_good(
     """
     old, new = normals(before), normals(after)
     cosine = np.einsum("ij,ij->i", old, new)
-    size = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
+    size = lengths(old) * lengths(new)
     quality = qualities(after)
     shape = (quality > worst) | (quality > qualities(before))
     result: Bools = (cosine > turn * size) & (size > 0) & shape
@@ -288,12 +300,12 @@ def flip(
     second = np.stack([corners[:, 1], corners[:, 0], ends[:, 0]], axis=1)
     each = normals(vertices[triangles])
     old_normal = each[pair[:, 0]] + each[pair[:, 1]]
-    size = np.linalg.norm(old_normal, axis=1)
+    size = lengths(old_normal)
     select = np.flatnonzero(~exists & ~forbidden(corners[:, 0], corners[:, 1]))
     for new in (first, second):
         normal = normals(vertices[new[select]])
         cosine = np.einsum("ij,ij->i", normal, old_normal[select])
-        longest = size[select] * np.linalg.norm(normal, axis=1)
+        longest = size[select] * lengths(normal)
         select = select[cosine > MIN_TURN_COSINE * longest]
     value = gain(ends[select], corners[select])
     select, value = select[value > 0], value[value > 0]

@@ -12,7 +12,7 @@ from ..mesh import remesh
 from ..mesh.topology import edge_keys
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import NearestTriangles, closest_points
-from ..util.linalg import normalize
+from ..util.linalg import lengths, normalize
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 
@@ -46,7 +46,7 @@ class _Creases:
         one, two = table.triangles.T
         # A needle faces nowhere: it counts with its neighbour beyond its longest edge, which so
         # can be flipped, and a crease that it lies on runs along its other two.
-        length = np.linalg.norm(vertices[table.ends[:, 0]] - vertices[table.ends[:, 1]], axis=1)
+        length = lengths(vertices[table.ends[:, 0]] - vertices[table.ends[:, 1]])
         longest = np.zeros(len(triangles))
         for side in (one, two[two >= 0]):
             np.maximum.at(longest, side, length if side is one else length[two >= 0])
@@ -69,7 +69,7 @@ class _Creases:
         step = normalize(vertices[ends[:, 1]] - vertices[ends[:, 0]])
         np.add.at(way, ends[:, 0], step)
         np.add.at(way, ends[:, 1], -step)
-        bent = np.linalg.norm(way, axis=1) > 0.7
+        bent = lengths(way) > 0.7
         self.rank = np.where(number == 0, 0, np.where((number == 2) & ~bent, 1, 2))
         if len(pinned):
             self.rank[cKDTree(pinned).query(vertices)[0] == 0.0] = 2
@@ -88,7 +88,7 @@ class _Creases:
     def may_slide(self, gone: Ints, kept: Ints) -> Bools:
         """Whether a vertex may be merged into another without leaving its crease."""
         free = self.rank[gone] == 0
-        step = np.linalg.norm(self.vertices[gone] - self.vertices[kept], axis=1)
+        step = lengths(self.vertices[gone] - self.vertices[kept])
         free |= (self.rank[gone] <= self.rank[kept]) & (self.rank[gone] == 1) & (step < self.tiny)
         return np.asarray(free | ((self.rank[gone] == 1) & self.are_sharp(gone, kept)))
 
@@ -126,7 +126,7 @@ def even_surface(
         monitor.tick()
 
         def is_long(one: Ints, two: Ints, points: Floats = vertices) -> Bools:
-            length = np.linalg.norm(points[one] - points[two], axis=1)
+            length = lengths(points[one] - points[two])
             return np.asarray(length > _LONG * edge)
 
         vertices, triangles = remesh.split(vertices, triangles, is_long)
@@ -173,7 +173,7 @@ def _with_vertices(
         share = np.einsum("kci,kci->kc", at[:, None] - corners, span) / square
         share = np.clip(share, 0.0, 1.0)
         foot = corners + share[:, :, None] * span
-        off = np.linalg.norm(at[:, None] - foot, axis=2)
+        off = lengths(at[:, None] - foot)
         side, every = np.argmin(off, axis=1), np.arange(len(at))
         table = remesh.edges(triangles, len(vertices))
         keys = edge_keys(table.ends[:, 0], table.ends[:, 1], len(vertices))
@@ -223,11 +223,11 @@ def _keeps_shape(
     def judged(before: Floats, after: Floats) -> tuple[Bools, Bools, Floats]:
         old, new = remesh.normals(before), remesh.normals(after)
         cosine = np.einsum("ij,ij->i", old, new)
-        size, now = np.linalg.norm(old, axis=1), np.linalg.norm(new, axis=1)
+        size, now = lengths(old), lengths(new)
         first, quality = remesh.qualities(before), remesh.qualities(after)
         shape = (quality > 0.1) | (quality > first)
         good = (cosine > _TURN * size * now) & (now > 0) & shape
-        side = np.linalg.norm(before - np.roll(before, 1, axis=1), axis=2).max(axis=1)
+        side = remesh.longest_sides(before)
         low = size < tiny * side
         maybe = ~good & (low | ((first < _NEEDLE) & (now > 0) & shape))
         return good, maybe, new
@@ -256,7 +256,7 @@ def _rounder(vertices: Floats, creases: _Creases) -> Callable[[Ints, Ints], Floa
         now = [np.stack([u, v, a], axis=1), np.stack([v, u, b], axis=1)]
         then = [np.stack([a, b, v], axis=1), np.stack([b, a, u], axis=1)]
         first, second = (remesh.normals(side) for side in now)
-        size = np.linalg.norm(first, axis=1) * np.linalg.norm(second, axis=1)
+        size = lengths(first) * lengths(second)
         flat = np.einsum("ij,ij->i", first, second) > np.cos(np.radians(20.0)) * size
         before, after = (
             np.minimum(*(remesh.qualities(side) for side in pair)) for pair in (now, then)
@@ -285,10 +285,10 @@ def _relaxed(
     # A triangle that would turn over keeps its corners where they were, which may turn those
     # about it over, whose other corners have moved: these go back, too.
     old = remesh.normals(vertices[triangles])
-    size = np.linalg.norm(old, axis=1)
+    size = lengths(old)
     while True:
         new = remesh.normals(result[triangles])
-        turned = np.einsum("ij,ij->i", old, new) <= 0.5 * size * np.linalg.norm(new, axis=1)
+        turned = np.einsum("ij,ij->i", old, new) <= 0.5 * size * lengths(new)
         turned &= (result[triangles] != vertices[triangles]).any(axis=(1, 2))
         if not turned.any():
             return result

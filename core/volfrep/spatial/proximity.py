@@ -22,6 +22,7 @@ from ..mesh.remesh import normals, unit_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
 from ..util.hands import Hands, Shared
+from ..util.linalg import squares
 from ..util.ragged import spread
 from ..util.threads import in_threads, threads
 from ..util.types import Floats, Ints
@@ -123,7 +124,7 @@ class NearestTriangles:
         closest = closest_on_triangles(self._corners[near], points)[0]
         # Boxes are as far as their triangles but for rounding.
         slack = (1e-12 * np.abs(self._corners).max()) ** 2
-        return np.asarray(((points - closest) ** 2).sum(axis=1) * (1.0 + 1e-9) + slack)
+        return np.asarray(squares(points - closest) * (1.0 + 1e-9) + slack)
 
 
 def _box_tree(corners: Floats) -> tuple[list[Floats], Ints]:
@@ -160,7 +161,7 @@ def _descend(
 ) -> tuple[Floats, Ints] | None:
     """Closest points and triangles; None where that would take too much memory at once."""
     best = closest_on_triangles(corners[seed], points)[0]
-    squared = ((points - best) ** 2).sum(axis=1)
+    squared = squares(points - best)
     within = squared if reach is None else np.minimum(squared, reach)
     point, node = np.arange(len(points)), np.zeros(len(points), np.int64)
     for level in boxes[1:]:
@@ -170,11 +171,11 @@ def _descend(
             return None
         box, p = level[node], points[point]
         gap = np.maximum(np.maximum(box[:, 0] - p, p - box[:, 1]), 0.0)
-        keep = _dot(gap, gap) < within[point]
+        keep = squares(gap) < within[point]
         point, node = point[keep], node[keep]
     triangle = order[node]
     candidate = closest_on_triangles(corners[triangle], points[point])[0]
-    distance = ((points[point] - candidate) ** 2).sum(axis=1)
+    distance = squares(points[point] - candidate)
     by_distance = np.lexsort((distance, point))
     winner, first = np.unique(point[by_distance], return_index=True)
     rows = by_distance[first]
@@ -224,7 +225,7 @@ def _closest_on_edges(corners: Floats, points: Floats) -> tuple[Floats, Ints]:
         start, along = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
         s = _dot(points - start, along) / np.maximum(_dot(along, along), 1e-300)
         candidate = start + np.clip(s, 0.0, 1.0)[:, None] * along
-        distance = ((points - candidate) ** 2).sum(axis=1)
+        distance = squares(points - candidate)
         better = distance < squared
         squared[better], edge[better] = distance[better], k
         closest[better] = candidate[better]
@@ -345,14 +346,14 @@ class SurfaceIndex:
         nearest = self.tree.query(points)[1]
         triangle = self.triangle_of_sample[nearest].astype(np.int64)
         closest, on_edge = closest_on_triangles(self.corners[triangle], points)
-        squared = ((points - closest) ** 2).sum(axis=1)
+        squared = squares(points - closest)
         rows = np.flatnonzero(on_edge >= 0)
         for _ in range(MAX_EDGE_CROSSINGS):
             if not len(rows):
                 break
             other = self.across[triangle[rows], on_edge[rows]]
             candidate, candidate_edge = closest_on_triangles(self.corners[other], points[rows])
-            distance = ((points[rows] - candidate) ** 2).sum(axis=1)
+            distance = squares(points[rows] - candidate)
             better = distance < squared[rows]
             rows = rows[better]
             triangle[rows], on_edge[rows] = other[better], candidate_edge[better]

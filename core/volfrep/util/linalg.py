@@ -40,9 +40,20 @@ def dot_columns(a: list[Floats], b: list[Floats]) -> Floats:
     return product
 
 
+def squares(vectors: Floats) -> Floats:
+    """(...) squares of (..., 3) vectors' lengths: faster than a sum along an axis of three."""
+    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
+    return np.asarray(x * x + y * y + z * z)
+
+
+def lengths(vectors: Floats) -> Floats:
+    """(...) lengths of (..., 3) vectors, to the bit as `numpy.linalg.norm` has them."""
+    return np.asarray(np.sqrt(squares(vectors)))
+
+
 def normalize(vectors: NDArray[Any]) -> Floats:
     """(n, 3) vectors of length 1 along (n, 3) vectors; zero along those of no length."""
-    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)[:, None])
+    return np.asarray(vectors / np.maximum(lengths(vectors), 1e-300)[:, None])
 
 
 def determinants(matrices: Floats) -> Floats:

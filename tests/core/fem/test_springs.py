@@ -27,5 +27,5 @@ def test_a_stiffness_that_is_a_whole_number_is_read_as_one():
         b"*NODE FILE\nU\n*END STEP\n"
     )
     with run(iter(lines), "a spring") as results:
-        ((number, moved),) = results.displacements()
+        ((number, moved),) = results.displacements
     assert moved[list(number).index(1)] == pytest.approx([2e-6, 0.0, 0.0])

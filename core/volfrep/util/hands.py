@@ -12,12 +12,12 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from .threads import in_threads
+
+if TYPE_CHECKING:  # the command's help needs no numpy
+    from numpy.typing import NDArray
 
 T = TypeVar("T")
 
@@ -38,6 +38,8 @@ class Mapped:
     @property
     def array(self) -> NDArray[Any]:
         """It, read only; the file is closed once nobody has this any more."""
+        import numpy as np
+
         found: NDArray[Any] = np.asarray(np.load(self.path, mmap_mode="r"))
         return found
 
@@ -68,6 +70,8 @@ class Hands:
         if not self.are_others or not all(array.size for array in arrays):
             yield tuple(Held(array) for array in arrays)
             return
+        import numpy as np
+
         # Where a reader is ended in the middle of it, Windows keeps its file for a moment.
         with tempfile.TemporaryDirectory(prefix="volfrep-", ignore_cleanup_errors=True) as folder:
             files = [Path(folder) / f"{number}.npy" for number in range(len(arrays))]

@@ -282,11 +282,11 @@ def drag_a_curve(doc, box):
     place = curve.place_of(curve.points[1]).toPoint()
     move_mouse(curve.mapToGlobal(place))
     xdotool("mousedown", 1)
-    wait_until(lambda: curve._held)
+    wait_until(lambda: curve._dragged)
     move_mouse(curve.mapToGlobal(place + QtCore.QPoint(0, 30)))
     wait_until(lambda: curve.points[1][1] < 1.1)
     xdotool("mouseup", 1)
-    wait_until(lambda: not curve._held)
+    wait_until(lambda: not curve._dragged)
     settle()
     dragged = curve.points[1][1]
     check("a point is dragged", 0.3 < dragged < 1.1, curve.points)

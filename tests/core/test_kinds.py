@@ -79,7 +79,7 @@ def is_question(node: ast.AST) -> bool:
     if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load):
         of_spec = last_name(node.value) == "spec" and node.attr in OWN - {"wall"}
         return node.attr == "network" or of_spec
-    if isinstance(node, ast.Call):
+    if isinstance(node, ast.Call) and not isinstance(node.func, ast.Call):
         return asks_by_call(last_name(node.func), node.args)
     if isinstance(node, ast.MatchClass):
         return last_name(node.cls) in KINDS

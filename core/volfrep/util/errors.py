@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What can go wrong, as exceptions whose text is one sentence meant for a user."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 
 def brief(value: object) -> str:
@@ -10,9 +10,10 @@ def brief(value: object) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
-def listed(names: Sequence[str], last: str = "or") -> str:
+def listed(names: Iterable[str], last: str = "or") -> str:
     """Names with commas, and `last` before the last."""
-    return f" {last} ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
+    *before, end = list(names) or [""]
+    return f" {last} ".join(filter(None, (", ".join(before), end)))
 
 
 class VolfrepError(ValueError):

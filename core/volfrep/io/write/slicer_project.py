@@ -106,7 +106,7 @@ def write_project(
             the path cannot be written.
     """
     if slicer not in _SLICERS:
-        raise VolfrepError(f"There is no slicer '{slicer}': choose {listed(tuple(_SLICERS))}.")
+        raise VolfrepError(f"There is no slicer '{slicer}': choose {listed(_SLICERS)}.")
     keys = _SLICERS[slicer]
     name = "".join(letter for letter in Path(path).stem if letter.isprintable())
     meshes = [number_vertices(mesh, path, as_text=True) for mesh in (solid, *(m for _, m in bands))]

@@ -74,7 +74,7 @@ def test_no_form_of_a_lattice_holds_what_its_mesh_leaves_out(loose):
     assert groups(loose.lattice_beams.lattice) == 1
     assert groups(loose.axes.wireframe) == 1
     shown = preview(BOX, LOOSE, PartDepth(BOX))
-    assert shown.struts == len(np.unique(loose._held(is_cut=True).left.owner))
+    assert shown.struts == len(np.unique(loose._kept(is_cut=True).left.owner))
     for said in (loose.lattice_beams.loose, loose.axes.warnings):
         assert any("3 pieces that hang on nothing left out" in sentence for sentence in said)
 

@@ -8,8 +8,8 @@ the triangles' shapes (on demand).
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -19,7 +19,7 @@ from ..util.errors import VolfrepError
 from ..util.hands import Hands, Held, Shared
 from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
-from ..util.threads import threads
+from ..util.threads import in_threads
 from .topology import displaced_vertices, edge_uses, touching
 from .triangle_mesh import TriangleMesh
 
@@ -270,8 +270,8 @@ def shape_statistics(mesh: TriangleMesh) -> ShapeStatistics:
     """
     if not len(mesh.triangles):
         raise ValueError("a mesh without triangles has no shape statistics")
-    blocks = _in_blocks(lambda start, stop: _block_shapes(mesh, start, stop), len(mesh.triangles))
     count = len(mesh.triangles)
+    blocks = list(in_threads(partial(_block_shapes, mesh), range(0, count, BLOCK_TRIANGLES)))
     sums = np.sum([sums for sums, _ in blocks], axis=0)
     lowest = np.min([lowest for _, lowest in blocks], axis=0)
     mean = sums[0] / count
@@ -324,10 +324,11 @@ def _sizes_from(
 
 
 def _block_shapes(
-    mesh: TriangleMesh, start: int, stop: int
+    mesh: TriangleMesh, start: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Sums of (radius ratio, area ratio, area) and of their squares; lowest sine and ratio."""
-    a, b, c = (mesh.vertices[corner] for corner in mesh.triangles[start:stop].T)
+    block = mesh.triangles[start : start + BLOCK_TRIANGLES]
+    a, b, c = (mesh.vertices[corner] for corner in block.T)
     doubled = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     sides = np.sort([np.linalg.norm(q - p, axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
     proper = doubled > 0.0
@@ -343,13 +344,6 @@ def _block_shapes(
         np.array([values.sum(axis=1), (values**2).sum(axis=1)]),
         np.array([sine.min(), ratio.min()]),
     )
-
-
-def _in_blocks(work: Callable[[int, int], T], count: int) -> list[T]:
-    """`work(start, stop)` for consecutive blocks of triangles, on every core."""
-    starts = range(0, count, BLOCK_TRIANGLES)
-    with ThreadPoolExecutor(max_workers=threads()) as pool:
-        return list(pool.map(lambda s: work(s, min(s + BLOCK_TRIANGLES, count)), starts))
 
 
 def _run(monitor: Monitor | None, function: Callable[[], T]) -> T:

@@ -9,7 +9,6 @@ scipy's graphs are loaded when a large one is asked for: that takes as long as a
 from __future__ import annotations
 
 import itertools
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..util.hands import Hands, Held, Shared
 from ..util.ragged import rows_of
-from ..util.threads import in_threads, threads
+from ..util.threads import in_threads
 from ..util.types import Bools, Ints
 from .triangle_mesh import TriangleMesh
 
@@ -361,8 +360,7 @@ def pinched_vertices(mesh: TriangleMesh) -> int:
     at = mesh.triangles.ravel()[order]
     cuts = np.searchsorted(at, np.arange(0, len(mesh.vertices) + BLOCK_VERTICES, BLOCK_VERTICES))
     spans = [slice(start, stop) for start, stop in itertools.pairwise(cuts.tolist())]
-    with ThreadPoolExecutor(max_workers=threads()) as pool:
-        return sum(pool.map(lambda span: _pinched_in(mesh, order[span], at[span]), spans))
+    return sum(in_threads(lambda span: _pinched_in(mesh, order[span], at[span]), spans))
 
 
 def _pinched_in(mesh: TriangleMesh, corner: NDArray[np.int64], at: NDArray[np.int32]) -> int:

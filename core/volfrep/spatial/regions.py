@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 
 import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh, compact, triangle_boxes
 from ..util.hands import Shared
 from ..util.progress import Monitor
-from ..util.types import Bools, Ints
+from ..util.types import Bools, Floats, Ints
 
 #: What finds pairs (k, 2) of triangles of a mesh, at least one of them wanted, (m,) bool, that meet
 #: within a distance in mm.
@@ -55,7 +56,7 @@ def in_regions(
 def _in_region(look: Look, vertices: Shared, triangles: Shared, rows: Ints, near: float) -> Ints:
     """The pairs with one of some triangles, by a look at those whose boxes come near to theirs."""
     mesh = TriangleMesh(vertices.array, triangles.array)
-    low, high = triangle_boxes(mesh.vertices.T, mesh.triangles.T)
+    low, high = _boxes(vertices, triangles)
     within = np.ones(len(mesh.triangles), bool)
     for lowest, highest in zip(low, high, strict=True):
         within &= highest >= lowest[rows].min() - 2.0 * near
@@ -66,3 +67,9 @@ def _in_region(look: Look, vertices: Shared, triangles: Shared, rows: Ints, near
     part = compact(TriangleMesh(mesh.vertices, mesh.triangles[some]))
     found: Ints = some[look(part, wanted[some], near, Monitor())]
     return found
+
+
+@lru_cache(maxsize=1)
+def _boxes(vertices: Shared, triangles: Shared) -> tuple[Floats, Floats]:
+    """(3, m) least and greatest coordinates of the triangles, which all regions look at."""
+    return triangle_boxes(vertices.array.T, triangles.array.T)

@@ -56,8 +56,7 @@ def tidy(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimmed
         monitor: for cancel.
     """
     looks = surface.looks
-    is_known = looks is not None and looks.step * STEPS == precision
-    unsound = looks.unsound if looks is not None and is_known else None
+    unsound = looks.unsound if looks and looks.step * STEPS == precision else None
     smooth, new, was = without_slivers(surface.mesh, precision, unsound)
     release_memory()
     if not new.any():

@@ -10,7 +10,6 @@ from volfrep.design import scattered_field
 from volfrep.design.spec import LatticeSpec
 from volfrep.io.write import stl
 from volfrep.jobs.blocks import block
-from volfrep.mesh import quality
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.spatial import proximity
@@ -46,14 +45,13 @@ def test_a_negative_number_is_refused_and_changes_nothing():
 @pytest.mark.parametrize("count", [1, 3])
 def test_every_pool_has_the_told_size(mesh, tmp_path, monkeypatch, count):
     sizes = []
-    for module in (threads, quality):
-        pool = module.ThreadPoolExecutor
+    pool = threads.ThreadPoolExecutor
 
-        def counting(max_workers, pool=pool, **options):
-            sizes.append(max_workers)
-            return pool(max_workers=max_workers, **options)
+    def counting(max_workers, **options):
+        sizes.append(max_workers)
+        return pool(max_workers=max_workers, **options)
 
-        monkeypatch.setattr(module, "ThreadPoolExecutor", counting)
+    monkeypatch.setattr(threads, "ThreadPoolExecutor", counting)
     use_threads(count)
     measure(mesh)
     stl.write_stl(mesh, tmp_path / "block.stl")

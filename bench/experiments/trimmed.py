@@ -35,9 +35,6 @@ LEAST_CELLS = 3000
 PEER_LIMIT = 240.0
 STEPS = ("solid", "offset", "struts", "CSG", "isosurface", "write")
 WORKERS_SIZE, FIELD_SIZE, QUICK_SIZE = 2.5, 3.2, 5.0
-#: Sizes at which it is told who computes, and how much of it nobody may share, at most; more
-#: workers, and by how much the time of `CREW` may be more than what is expected of them.
-SHARED_SIZES, BAR_ALONE, CREW, CREWS, BAR_EXPECTED = (2.5, 1.6), 0.12, 2, (4, 8, 16), 1.2
 
 
 def measure(context: Context) -> dict[str, Any]:
@@ -61,54 +58,14 @@ def measure(context: Context) -> dict[str, Any]:
             ("radius by depth", ("--radius-grading", "skin", *radii)),
         )
     ]
-    shared = [_shares(context, size) for size in ((at,) if context.quick else SHARED_SIZES)]
-    bars = _bars(rows, crew, varied) + _bars_of_shares(shared)
-    return {"rows": rows, "crew": crew, "varied": varied, "shares": shared, "bars": bars}
+    bars = _bars(rows, crew, varied)
+    return {"rows": rows, "crew": crew, "varied": varied, "bars": bars}
 
 
 def _ours(context: Context, size: float, *options: str, what: str = "this engine") -> Row:
     given = [*lattice_options(size, 0.1 * size), "--shell", f"{SHELL:g}", *options]
     row = our_part(context, bracket(), "CVC", *given, look=False)
     return context.say({**row, "tool": what, "size": size})
-
-
-def _shares(context: Context, size: float) -> Row:
-    """Who computes, and the time to be expected of more workers, each with a core of its own."""
-    row: Row = {"size": size}
-    out = context.folder / "shared.stl"
-    done = run(bench_job("shares", str(bracket()), "CVC", f"{size:g}", str(CREW), str(out)))
-    if done.failure:
-        return context.say({**row, "note": done.failure, "failed": True})
-    found = answer(done)
-    row |= {"seconds": done.seconds, **found, "alone": found["first_thread"] / found["all"]}
-    row["main_share"] = found["main_process"] / found["all"]
-    for count in (CREW, *CREWS):
-        row[f"with_{count}"] = expected_seconds(found["first_thread"], found["all"], count)
-    out.unlink()
-    return context.say(row)
-
-
-def expected_seconds(alone: float, every: float, count: int) -> float:
-    """What a job takes with so many cores (G. M. Amdahl, 1967).
-
-    Args:
-        alone: seconds of a processor that one thread computes by itself.
-        every: of all.
-        count: of cores, and of workers.
-    """
-    return alone + (every - alone) / count
-
-
-def _bars_of_shares(rows: list[Row]) -> list[Row]:
-    bars = []
-    for row in rows:
-        name, seconds = f"bracket, L = {row['size']:g}", row.get("seconds")
-        what = f"{name}: what one thread computes alone, of all"
-        bars.append(bar(what, row.get("alone"), BAR_ALONE, "", ".2f"))
-        over = _ratio(seconds, row.get(f"with_{CREW}"))
-        bars.append(bar(f"{name}: {CREW} workers' time over the expected one", over, BAR_EXPECTED,
-                        "", ".2f"))  # fmt: skip
-    return bars
 
 
 def _level_sets(context: Context, size: float) -> Row:
@@ -199,14 +156,6 @@ def render(result: dict[str, Any], images: Path) -> str:
         images / "trimmed.png", "cells", "seconds to the STL file", data,
         title="A trimmed part",
     )  # fmt: skip
-    share_columns = (
-        Column("L", "size", "g"),
-        Column("s", "seconds", ".1f"),
-        Column("CPU s", "all", ".1f"),
-        Column("one thread alone", "alone", ".0%"),
-        Column("main process", "main_share", ".0%"),
-        *(Column(f"{n} cores, s", f"with_{n}", ".1f") for n in (CREW, *CREWS)),
-    )
     columns = (
         Column("L", "size", "g"),
         Column("tool", "tool"),
@@ -241,8 +190,4 @@ OpenVDB (`bench/openvdb_part.cc`, of OpenVDB's own tools): level sets with voxel
 One worker and two, and radii that vary with the depth:
 
 {table(columns, [*result["crew"], *result["varied"]])}
-
-Who computes with {CREW} workers, in shares of all processors' seconds, and what is to be expected of more: what the first thread does nobody shares; threads of the main process and workers share the rest.
-
-{table(share_columns, result.get("shares", []))}
 """

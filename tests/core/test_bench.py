@@ -20,7 +20,7 @@ from bench import measuring, plots, published, published_method  # noqa: E402
 from bench.document import document  # noqa: E402
 from bench.exact import block_volume  # noqa: E402
 from bench.experiments import EXPERIMENTS  # noqa: E402
-from bench.experiments.trimmed import expected_seconds  # noqa: E402
+from bench.experiments.shares import expected_seconds  # noqa: E402
 from bench.readme import figures_table, write_into  # noqa: E402
 from bench.tables import Column, bar, bars_told, power_law, table  # noqa: E402
 

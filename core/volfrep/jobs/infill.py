@@ -15,7 +15,7 @@ from ..grid.placement import Placement
 from ..grid.strut_graph import BeamModel, Wireframe
 from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
-from ..process.pool import hands_of
+from ..process.pool import backend_of
 from ..reports.result import Result, report_of
 from ..shell.domain import Domain
 from ..trim.beam_model import deformed_struts, part_beams, reaching_into, refuse_fillets
@@ -87,7 +87,7 @@ class Infill:
         kind = lattice_kind(spec)
         kind.refuse(solid)
         monitor = monitor or Monitor(progress)
-        monitor.hands = hands_of(executor)
+        monitor.backend = backend_of(executor)
         self.solid, self.spec, self.monitor, self.kind = solid, spec, monitor, kind
         self.part_domain = PartDomain(
             solid, spec, monitor, cache or StageCache(), executor, streamed=streamed

@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..util.hands import Hands
+from ..util.parallel import ParallelBackend
 from ..util.ragged import rows_of
 from ..util.threads import in_threads
 from ..util.types import Bools, Ints
@@ -318,7 +318,7 @@ def _is_thin(corners: NDArray[np.float64], tolerance: float) -> Bools:
 
 
 def separate_vertices(
-    mesh: TriangleMesh, precision: float, hands: Hands | None = None
+    mesh: TriangleMesh, precision: float, backend: ParallelBackend | None = None
 ) -> TriangleMesh:
     """The mesh with no two vertices that single precision would take for one, where possible.
 
@@ -329,10 +329,10 @@ def separate_vertices(
     Args:
         mesh: closed.
         precision: `shortest_edge` of the part, mm.
-        hands: as of `merging_vertices`.
+        backend: as of `merging_vertices`.
     """
     for attempt in range(1, PASSES + 1):
-        twins = merging_vertices(mesh, hands)
+        twins = merging_vertices(mesh, backend)
         if not len(twins):
             return mesh
         part = mesh.triangles[touching(vertices_of(twins, len(mesh.vertices)), mesh.triangles)]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..util.errors import VolfrepError
-from ..util.hands import Hands, Shared
+from ..util.parallel import ParallelBackend, SharedArray
 from ..util.types import Ints
 from .triangle_mesh import TriangleMesh
 
@@ -79,16 +79,18 @@ def lines(template: str, blocks: Iterable[NDArray[np.generic]]) -> Iterator[byte
             yield ((template * len(block)) % tuple(block.ravel().tolist())).encode("ascii")
 
 
-def merging_vertices(mesh: TriangleMesh, hands: Hands | None = None) -> Ints:
+def merging_vertices(mesh: TriangleMesh, backend: ParallelBackend | None = None) -> Ints:
     """The vertices that a reader of a file would take for one with another, such together.
 
     A binary file holds the nearest float32 of every coordinate, a text the nearest decimal. The
-    hands sort; None: threads.
+    backend sorts; None: threads.
     """
-    return merging(mesh.vertices, decimal_step(mesh.vertices), hands)
+    return merging(mesh.vertices, decimal_step(mesh.vertices), backend)
 
 
-def merging(vertices: NDArray[np.float64], step: float, hands: Hands | None = None) -> Ints:
+def merging(
+    vertices: NDArray[np.float64], step: float, backend: ParallelBackend | None = None
+) -> Ints:
     """`merging_vertices` among points (n, 3), where the decimals of a text resolve a step in mm."""
 
     def binary(part: slice | Ints) -> NDArray[np.float32]:
@@ -97,20 +99,22 @@ def merging(vertices: NDArray[np.float64], step: float, hands: Hands | None = No
     def text(part: slice | Ints) -> NDArray[np.float32]:
         return rounded(vertices[part], step).astype(np.float32)
 
-    hands = hands or Hands()
-    twins = _twins(binary, len(vertices), hands)
-    return twins if len(twins) else _twins(text, len(vertices), hands)
+    backend = backend or ParallelBackend()
+    twins = _twins(binary, len(vertices), backend)
+    return twins if len(twins) else _twins(text, len(vertices), backend)
 
 
-def _twins(rows: Callable[[slice | Ints], NDArray[np.float32]], size: int, hands: Hands) -> Ints:
+def _twins(
+    rows: Callable[[slice | Ints], NDArray[np.float32]], size: int, backend: ParallelBackend
+) -> Ints:
     """Indices of the points that share all their coordinates with another one, twins together."""
     # Sorted by their hashes, which are made twice rather than held beside their order.
     key = _hashes(rows, size)
     shares = KEY_SHARES
     if size <= BLOCK_ROWS:
-        shares, hands = 1, Hands()
-    with hands.sharing(key) as (keys,):
-        found = hands.each(_repeated, ((keys, share, shares) for share in range(shares)))
+        shares, backend = 1, ParallelBackend()
+    with backend.sharing(key) as (keys,):
+        found = backend.starmap(_repeated, ((keys, share, shares) for share in range(shares)))
         shared_keys = np.concatenate(list(found))
     if not len(shared_keys):
         return np.zeros(0, np.int64)
@@ -125,7 +129,7 @@ def _twins(rows: Callable[[slice | Ints], NDArray[np.float32]], size: int, hands
     return twins
 
 
-def _repeated(keys: Shared, share: int, shares: int) -> NDArray[np.uint64]:
+def _repeated(keys: SharedArray, share: int, shares: int) -> NDArray[np.uint64]:
     """The numbers that occur more than once, of those that leave `share` when divided."""
     key: NDArray[np.uint64] = keys.array
     some = key[key % np.uint64(shares) == np.uint64(share)] if shares > 1 else key

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..util.errors import VolfrepError
-from ..util.hands import Hands, Held, Shared
 from ..util.linalg import cross_columns, dot_columns
+from ..util.parallel import LocalArray, ParallelBackend, SharedArray
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from .topology import displaced_vertices, edge_uses, touching
@@ -183,13 +183,13 @@ def inspect(mesh: TriangleMesh, monitor: Monitor | None = None) -> Inspection:
     bounds = np.array([points.min(axis=1), points.max(axis=1)])
 
     is_large = len(mesh.triangles) > BLOCK_TRIANGLES
-    hands = monitor.hands if monitor is not None and is_large else Hands()
-    with hands.sharing(columns, mesh.triangles) as (shared_columns, triangles):
-        uses = _run(monitor, lambda: edge_uses(mesh, hands, triangles))
+    backend = monitor.backend if monitor is not None and is_large else ParallelBackend()
+    with backend.sharing(columns, mesh.triangles) as (shared_columns, triangles):
+        uses = _run(monitor, lambda: edge_uses(mesh, backend, triangles))
         middle = bounds.mean(axis=0)
         volumes, area, degenerate, repeated = _run(
             monitor,
-            lambda: _sizes(shared_columns, middle, triangles, len(mesh.triangles), hands),
+            lambda: _sizes(shared_columns, middle, triangles, len(mesh.triangles), backend),
         )
     shell = uses.piece[mesh.triangles[:, 0]]
     shell_volumes = np.bincount(shell, volumes, minlength=uses.pieces).astype(np.float64)
@@ -248,9 +248,9 @@ def quality_after_moves(
     if not float((way * (side + 2.0 * way) ** 2).sum()) < least:
         return None
     centre = old.mean(axis=0)
-    held, hands = Held(triangles), Hands()
+    held, backend = LocalArray(triangles), ParallelBackend()
     was, now = (
-        _sizes(Held(np.ascontiguousarray(each.T)), centre, held, len(triangles), hands)
+        _sizes(LocalArray(np.ascontiguousarray(each.T)), centre, held, len(triangles), backend)
         for each in (old, new)
     )
     return replace(
@@ -290,17 +290,21 @@ def shape_statistics(mesh: TriangleMesh) -> ShapeStatistics:
 
 
 def _sizes(
-    columns: Shared, centre: NDArray[np.float64], triangles: Shared, count: int, hands: Hands
+    columns: SharedArray,
+    centre: NDArray[np.float64],
+    triangles: SharedArray,
+    count: int,
+    backend: ParallelBackend,
 ) -> tuple[NDArray[np.float64], float, int, int]:
     """Signed volumes about a point, total area, degenerate triangles, repeated vertices."""
     starts = range(0, count, BLOCK_TRIANGLES)
-    found = hands.each(_sizes_from, ((columns, centre, triangles, start) for start in starts))
+    found = backend.starmap(_sizes_from, ((columns, centre, triangles, start) for start in starts))
     volumes, areas, flats, repeats = zip(*found, strict=True)
     return np.concatenate(volumes), float(sum(areas)), sum(flats), sum(repeats)
 
 
 def _sizes_from(
-    columns: Shared, centre: NDArray[np.float64], triangles: Shared, start: int
+    columns: SharedArray, centre: NDArray[np.float64], triangles: SharedArray, start: int
 ) -> tuple[NDArray[np.float64], float, int, int]:
     """As `_sizes`, of a block of triangles."""
     corners = np.ascontiguousarray(triangles.array[start : start + BLOCK_TRIANGLES].T)

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..util.hands import Hands, Held, Shared
+from ..util.parallel import LocalArray, ParallelBackend, SharedArray
 from ..util.ragged import rows_of
 from ..util.threads import in_threads
 from ..util.types import Bools, Ints
@@ -161,7 +161,7 @@ class EdgeUses:
 
 
 def edge_uses(
-    mesh: TriangleMesh, hands: Hands | None = None, triangles: Shared | None = None
+    mesh: TriangleMesh, backend: ParallelBackend | None = None, triangles: SharedArray | None = None
 ) -> EdgeUses:
     """How often edges are used, found of some triangles at a time.
 
@@ -169,10 +169,10 @@ def edge_uses(
 
     Args:
         mesh: any.
-        hands: look at the blocks; None: threads.
-        triangles: those of the mesh, as these hands share them.
+        backend: looks at the blocks; None: threads.
+        triangles: those of the mesh, as the backend shares them.
     """
-    hands, size = hands or Hands(), np.int64(len(mesh.vertices))
+    backend, size = backend or ParallelBackend(), np.int64(len(mesh.vertices))
     starts = range(0, len(mesh.triangles), BLOCK_TRIANGLES)
     last, shared = np.full(size, -1, np.int32), np.zeros(size, bool)
     for start in starts:
@@ -180,10 +180,10 @@ def edge_uses(
         before = last[corners]
         shared[corners[(before >= 0) & (before != start)]] = True
         last[corners] = start
-    with hands.sharing(shared) as (is_shared,):
-        every = triangles or Held(mesh.triangles)
+    with backend.sharing(shared) as (is_shared,):
+        every = triangles or LocalArray(mesh.triangles)
         given = ((every, start, BLOCK_TRIANGLES, is_shared) for start in starts)
-        found = list(hands.each(_uses_in, given))
+        found = list(backend.starmap(_uses_in, given))
     ends, uses = np.zeros((0, 2), np.int64), np.zeros((0, 2), np.int64)
     if found:
         ends = np.concatenate([block.ends for block in found])
@@ -215,7 +215,7 @@ class _Block:
     lowest: Ints
 
 
-def _uses_in(every: Shared, first: int, count: int, is_shared_in: Shared) -> _Block:
+def _uses_in(every: SharedArray, first: int, count: int, is_shared_in: SharedArray) -> _Block:
     """What is found of some triangles of all, of whose vertices some other ones use, too."""
     from scipy.sparse.csgraph import connected_components
 

@@ -15,7 +15,7 @@ from queue import SimpleQueue
 from typing import Any, TypeVar
 
 from ..util.errors import VolfrepError
-from ..util.hands import Hands
+from ..util.parallel import ParallelBackend
 from ..util.threads import threads
 from .worker import Call, Ending, Program, Worker, WorkerLost, this_python
 
@@ -133,21 +133,21 @@ def on_this_machine(executor: Executor | None) -> Executor | None:
     return executor if isinstance(executor, WorkerPool) else None
 
 
-class WorkerHands(Hands):
+class WorkerBackend(ParallelBackend):
     """Workers of this machine, as long as they are not let go."""
 
     def __init__(self, executor: WorkerPool) -> None:
         self._executor = executor
 
     @property
-    def are_others(self) -> bool:
-        """As of any hands."""
+    def uses_processes(self) -> bool:
+        """As of any backend."""
         return self._executor.is_open
 
-    def each(self, function: Callable[..., T], given: Iterable[tuple[Any, ...]]) -> Iterator[T]:
-        """As of any hands, a few calls ahead; what a worker was lost with is made here."""
-        if not self.are_others:
-            yield from super().each(function, given)
+    def starmap(self, function: Callable[..., T], given: Iterable[tuple[Any, ...]]) -> Iterator[T]:
+        """As of any backend, a few calls ahead; what a worker was lost with is made here."""
+        if not self.uses_processes:
+            yield from super().starmap(function, given)
             return
         executor = self._executor
         waiting: deque[tuple[tuple[Any, ...], Future[T] | None]] = deque()
@@ -169,9 +169,9 @@ class WorkerHands(Hands):
             yield first()
 
 
-def hands_of(executor: Executor | None) -> Hands:
+def backend_of(executor: Executor | None) -> ParallelBackend:
     """An executor's processes of this machine; threads for any other."""
-    return WorkerHands(executor) if isinstance(executor, WorkerPool) else Hands()
+    return WorkerBackend(executor) if isinstance(executor, WorkerPool) else ParallelBackend()
 
 
 def let_go(executor: Executor | None) -> None:

@@ -47,7 +47,7 @@ class Depth:
         thickness: of the wall, mm; of one that follows a field the least.
         monitor: asked for a cancel between steps.
         lengths: the field that the thickness follows; None for one thickness.
-        shared: the index for the monitor's hands; None: threads look up the distances.
+        shared: the index for the monitor's backend; None: threads look up the distances.
     """
 
     index: SurfaceIndex
@@ -66,7 +66,7 @@ class Depth:
         else:
             starts = range(0, len(points), POINTS_PER_CALL)
             given = ((shared, points[start : start + POINTS_PER_CALL]) for start in starts)
-            for found in self.monitor.hands.each(near_shared, given):
+            for found in self.monitor.backend.starmap(near_shared, given):
                 self.monitor.tick()
                 parts.append(found)
         if not parts:

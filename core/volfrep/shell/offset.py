@@ -112,7 +112,7 @@ def find_cavity(
         _refuse_too_thin(solid, thickness, plain.cubes, cube)
         sampled = (plain.samples, plain.owner)
         index = monitor.call(lambda: index_surface(solid, spacing, sampled))
-        with sharing_index(index, monitor.hands) as shared:
+        with sharing_index(index, monitor.backend) as shared:
             depth = Depth(index, thickness, monitor, shared=shared)
             return _found(solid, depth, cube, plain)
     else:

@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from ..mesh.remesh import normals, unit_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
-from ..util.hands import Hands, Shared
 from ..util.linalg import squares
+from ..util.parallel import ParallelBackend, SharedArray
 from ..util.ragged import spread
 from ..util.threads import in_threads, threads
 from ..util.types import Floats, Ints
@@ -366,21 +366,21 @@ class SurfaceIndex:
 class SharedIndex:
     """A `SurfaceIndex` for other processes, which make its tree anew; attributes as of that."""
 
-    corners: Shared
-    across: Shared
-    samples: Shared
-    triangle_of_sample: Shared
+    corners: SharedArray
+    across: SharedArray
+    samples: SharedArray
+    triangle_of_sample: SharedArray
     spacing: float
 
 
 @contextmanager
-def sharing_index(index: SurfaceIndex, hands: Hands) -> Iterator[SharedIndex | None]:
-    """An index for the calls of hands (`near_shared`); None where they are threads."""
-    if not hands.are_others:
+def sharing_index(index: SurfaceIndex, backend: ParallelBackend) -> Iterator[SharedIndex | None]:
+    """An index for the calls of a backend (`near_shared`); None where these are on threads."""
+    if not backend.uses_processes:
         yield None
         return
     arrays = index.corners, index.across, index.tree.data, index.triangle_of_sample
-    with hands.sharing(*arrays) as (corners, across, samples, triangles):
+    with backend.sharing(*arrays) as (corners, across, samples, triangles):
         yield SharedIndex(corners, across, samples, triangles, index.spacing)
 
 

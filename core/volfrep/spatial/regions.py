@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh, compact, triangle_boxes
-from ..util.hands import Shared
+from ..util.parallel import SharedArray
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 
@@ -31,10 +31,10 @@ def in_regions(
         mesh: any mesh, mm.
         wanted: (m,) bool, triangles of which each pair has at least one.
         near: mm; no farther apart are triangles that meet.
-        monitor: asked for a cancel; its hands look at the regions, if they are other processes.
+        monitor: asked for a cancel; its backend looks at the regions, if it uses processes.
     """
-    chosen, hands = np.flatnonzero(wanted), monitor.hands
-    if not hands.are_others or len(chosen) <= REGION_TRIANGLES:
+    chosen, backend = np.flatnonzero(wanted), monitor.backend
+    if not backend.uses_processes or len(chosen) <= REGION_TRIANGLES:
         yield look(mesh, wanted, near, monitor)
         return
     middle = mesh.vertices[mesh.triangles[chosen, 0]]
@@ -47,13 +47,15 @@ def in_regions(
         along = middle[rows, np.ptp(middle[rows], axis=0).argmax()]
         rows = rows[np.argsort(along, kind="stable")]
         waiting += [rows[: len(rows) // 2], rows[len(rows) // 2 :]]
-    with hands.sharing(mesh.vertices, mesh.triangles) as arrays:
-        for found in hands.each(_in_region, ((look, *arrays, rows, near) for rows in regions)):
+    with backend.sharing(mesh.vertices, mesh.triangles) as arrays:
+        for found in backend.starmap(_in_region, ((look, *arrays, rows, near) for rows in regions)):
             monitor.tick()
             yield found
 
 
-def _in_region(look: Look, vertices: Shared, triangles: Shared, rows: Ints, near: float) -> Ints:
+def _in_region(
+    look: Look, vertices: SharedArray, triangles: SharedArray, rows: Ints, near: float
+) -> Ints:
     """The pairs with one of some triangles, by a look at those whose boxes come near to theirs."""
     mesh = TriangleMesh(vertices.array, triangles.array)
     low, high = _boxes(vertices, triangles)
@@ -70,6 +72,6 @@ def _in_region(look: Look, vertices: Shared, triangles: Shared, rows: Ints, near
 
 
 @lru_cache(maxsize=1)
-def _boxes(vertices: Shared, triangles: Shared) -> tuple[Floats, Floats]:
+def _boxes(vertices: SharedArray, triangles: SharedArray) -> tuple[Floats, Floats]:
     """(3, m) least and greatest coordinates of the triangles, which all regions look at."""
     return triangle_boxes(vertices.array.T, triangles.array.T)

@@ -107,7 +107,7 @@ def finish(
             file can hold it; the text says where.
     """
     mesh = surface.mesh
-    apart = separate_vertices(mesh, edge_within(quality.bounds), monitor.hands)
+    apart = separate_vertices(mesh, edge_within(quality.bounds), monitor.backend)
     if apart is not mesh:
         changed = surface.on(apart)
         wider = _with_reached(surface, changed, monitor)

@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 from .errors import Cancelled
-from .hands import Hands
+from .parallel import ParallelBackend
 
 #: Called with the fraction done (0 to 1) and the name of the stage; returning ``False`` cancels.
 ProgressCallback = Callable[[float, str], "bool | None"]
@@ -31,8 +31,8 @@ class Monitor:
     """One run's progress: forwards to the callback, raises on cancel, times every stage.
 
     ``stages`` maps a stage's name to its seconds, ``memory_mb`` to the process's peak resident
-    memory in MB at its end, ``work`` what was done, by its name, to how often; ``hands`` make the
-    calls that the run divides its work into.
+    memory in MB at its end, ``work`` what was done, by its name, to how often; ``backend`` makes
+    the calls that the run divides its work into.
     """
 
     def __init__(self, callback: ProgressCallback | None = None) -> None:
@@ -44,7 +44,7 @@ class Monitor:
         self.stages: dict[str, float] = {}
         self.memory_mb: dict[str, float] = {}
         self.work: dict[str, int] = {}
-        self.hands = Hands()
+        self.backend = ParallelBackend()
 
     @contextmanager
     def stage(self, name: str, low: float, high: float) -> Iterator[Monitor]:

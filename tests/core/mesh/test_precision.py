@@ -5,16 +5,16 @@ import numpy as np
 import pytest
 
 from volfrep.mesh.precision import merging
-from volfrep.process.pool import hands_of, processes
-from volfrep.util.hands import Hands
+from volfrep.process.pool import backend_of, processes
+from volfrep.util.parallel import ParallelBackend
 from volfrep.util.threads import use_threads
 
 
-def found_twins(hands: Hands) -> set[tuple[int, int]]:
+def found_twins(backend: ParallelBackend) -> set[tuple[int, int]]:
     points = np.random.default_rng(0).uniform(-50.0, 50.0, (100_000, 3))
     points[[99_000, 40_000, 7]] = points[[12, 40_001, 70_007]]
     points[12] += 1e-9  # less than a step of single precision
-    pairs = merging(points, 1e-6, hands).reshape(-1, 2)
+    pairs = merging(points, 1e-6, backend).reshape(-1, 2)
     return {(min(pair), max(pair)) for pair in pairs.tolist()}
 
 
@@ -25,7 +25,7 @@ TWINS = {(12, 99_000), (40_000, 40_001), (7, 70_007)}
 def test_twins_among_many_points_are_found_on_any_threads(count: int) -> None:
     use_threads(count)
     try:
-        assert found_twins(Hands()) == TWINS
+        assert found_twins(ParallelBackend()) == TWINS
     finally:
         use_threads(0)
 
@@ -33,4 +33,4 @@ def test_twins_among_many_points_are_found_on_any_threads(count: int) -> None:
 @pytest.mark.costly
 def test_workers_find_them_too() -> None:
     with processes(2) as executor:
-        assert found_twins(hands_of(executor)) == TWINS
+        assert found_twins(backend_of(executor)) == TWINS

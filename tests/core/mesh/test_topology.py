@@ -11,7 +11,7 @@ from volfrep.mesh import topology
 from volfrep.mesh.quality import inspect
 from volfrep.mesh.topology import edge_uses
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
-from volfrep.process.pool import WorkerPool, hands_of, processes
+from volfrep.process.pool import WorkerPool, backend_of, processes
 
 
 def torn(seed):
@@ -95,11 +95,11 @@ def test_processes_count_the_edges_that_threads_do(monkeypatch: pytest.MonkeyPat
     assert here.open == 6
     with processes(2) as executor:
         assert isinstance(executor, WorkerPool)
-        there = edge_uses(open_, hands_of(executor))
+        there = edge_uses(open_, backend_of(executor))
         assert executor.workers, "they were asked"
         for worker in executor.workers:
             worker.kill()
-        lost = edge_uses(open_, hands_of(executor))
-    for found in (there, lost, edge_uses(open_, hands_of(executor))):
+        lost = edge_uses(open_, backend_of(executor))
+    for found in (there, lost, edge_uses(open_, backend_of(executor))):
         for name, value in vars(here).items():
             np.testing.assert_array_equal(getattr(found, name), value, name)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep.process.pool import WorkerPool, hands_of, processes
+from volfrep.process.pool import WorkerPool, backend_of, processes
 from volfrep.shell import depth
 from volfrep.shell.offset import find_cavity
 from volfrep.util.progress import Monitor
@@ -19,7 +19,7 @@ def test_a_wall_by_workers_is_that_of_threads(monkeypatch: pytest.MonkeyPatch) -
     solid, monitor = samples.sphere(10.0, 3), Monitor()
     here = find_cavity(solid, 2.0, monitor)
     with processes(2) as executor:
-        monitor.hands = hands_of(executor)
+        monitor.backend = backend_of(executor)
         there = find_cavity(solid, 2.0, monitor)
         assert isinstance(executor, WorkerPool)
         assert executor.workers, "they were asked"

@@ -8,7 +8,7 @@ import pytest
 
 import samples
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
-from volfrep.process.pool import hands_of, processes
+from volfrep.process.pool import backend_of, processes
 from volfrep.spatial import regions
 from volfrep.spatial.resolve_crossings import _rounded_crossing
 from volfrep.util.progress import Monitor
@@ -35,7 +35,7 @@ def test_regions_are_looked_at_by_workers(monkeypatch: pytest.MonkeyPatch) -> No
     assert whole == 1
     assert len(pairs) > 50
     with processes(2) as executor:
-        monitor.hands = hands_of(executor)
+        monitor.backend = backend_of(executor)
         many, again = found()
         assert many > 4
         np.testing.assert_array_equal(again, pairs)

@@ -17,7 +17,7 @@ from ...mesh.precision import refuse_lost_corners, single_precision
 from ...mesh.triangle_mesh import TriangleMesh, compact
 from ...util.errors import VolfrepError
 from ...util.files import replacing, write_at
-from ...util.hands import Hands, Held, Mapped, Shared
+from ...util.parallel import LocalArray, MappedArray, ParallelBackend, SharedArray
 from ...util.progress import POLL_SECONDS, Monitor
 from ...util.threads import in_threads
 from ...util.types import Floats
@@ -80,7 +80,7 @@ def mesh_blocks(
     Raises:
         VolfrepError: as `write_stl`.
     """
-    vertices, triangles = Held(single_precision(mesh, path)), Held(mesh.triangles)
+    vertices, triangles = LocalArray(single_precision(mesh, path)), LocalArray(mesh.triangles)
     return _blocks_between(vertices, triangles, first, len(mesh.triangles), path, goes=False)
 
 
@@ -89,20 +89,20 @@ def blocks_for(
     mesh: TriangleMesh, path: str | os.PathLike[str], executor: Executor | None
 ) -> Iterator[Callable[[int], Iterator[Block]]]:
     """`mesh_blocks` from a facet on, which an executor's processes on this machine may make."""
-    hands = Hands()
+    backend = ParallelBackend()
     if executor is not None:
-        from ...process.pool import hands_of  # of no use to blocks, and slow to import
+        from ...process.pool import backend_of  # of no use to blocks, and slow to import
 
-        hands = hands_of(executor)
+        backend = backend_of(executor)
     count = len(mesh.triangles)
-    with hands.sharing(single_precision(mesh, path), mesh.triangles) as (vertices, triangles):
-        goes = isinstance(triangles, Mapped)
+    with backend.sharing(single_precision(mesh, path), mesh.triangles) as (vertices, triangles):
+        goes = isinstance(triangles, MappedArray)
         yield lambda first: _blocks_between(vertices, triangles, first, count, path, goes=goes)
 
 
 def _blocks_between(
-    vertices: Shared,
-    triangles: Shared,
+    vertices: SharedArray,
+    triangles: SharedArray,
     first: int,
     count: int,
     path: str | os.PathLike[str],
@@ -115,7 +115,11 @@ def _blocks_between(
 
 
 def _facets(
-    vertices: Shared, triangles: Shared, start: int, stop: int, path: str | os.PathLike[str]
+    vertices: SharedArray,
+    triangles: SharedArray,
+    start: int,
+    stop: int,
+    path: str | os.PathLike[str],
 ) -> Facets:
     return facets_at(vertices.array, triangles.array[start:stop], path)
 

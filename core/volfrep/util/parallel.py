@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Who makes the calls that one job divides its work into: threads of this process, or others.
+"""Calls that one job divides its work into, made side by side by threads or by other processes.
 
 Large arrays that all of the calls need lie in files for other processes, which map them: each is
 sent a path, and what was written a moment ago is still in memory.
@@ -23,15 +23,15 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
-class Held:
+class LocalArray:
     """An array of this process, for its threads."""
 
     array: NDArray[Any]
 
 
 @dataclass(frozen=True)
-class Mapped:
-    """An array in a file."""
+class MappedArray:
+    """An array in a file that processes map into their memory."""
 
     path: Path
 
@@ -45,30 +45,30 @@ class Mapped:
 
 
 #: An array that calls of a function share, in this process or in others.
-Shared = Held | Mapped
+SharedArray = LocalArray | MappedArray
 
 
-class Hands:
-    """Threads of this process, which make calls side by side."""
+class ParallelBackend:
+    """Makes calls side by side: this one on threads of this process."""
 
     @property
-    def are_others(self) -> bool:
+    def uses_processes(self) -> bool:
         """Whether other processes of this machine make the calls."""
         return False
 
-    def each(self, function: Callable[..., T], given: Iterable[tuple[Any, ...]]) -> Iterator[T]:
-        """What a function of a module makes of each of what it is given, in their order."""
+    def starmap(self, function: Callable[..., T], given: Iterable[tuple[Any, ...]]) -> Iterator[T]:
+        """What a function of a module makes of each tuple of arguments, in their order."""
         return in_threads(lambda each: function(*each), given)
 
     @contextmanager
-    def sharing(self, *arrays: NDArray[Any]) -> Iterator[tuple[Shared, ...]]:
+    def sharing(self, *arrays: NDArray[Any]) -> Iterator[tuple[SharedArray, ...]]:
         """Arrays of numbers for the calls.
 
         Raises:
             OSError: the disk of temporary files is full.
         """
-        if not self.are_others or not all(array.size for array in arrays):
-            yield tuple(Held(array) for array in arrays)
+        if not self.uses_processes or not all(array.size for array in arrays):
+            yield tuple(LocalArray(array) for array in arrays)
             return
         import numpy as np
 
@@ -77,4 +77,4 @@ class Hands:
             files = [Path(folder) / f"{number}.npy" for number in range(len(arrays))]
             for file, array in zip(files, arrays, strict=True):
                 np.save(file, array)
-            yield tuple(Mapped(file) for file in files)
+            yield tuple(MappedArray(file) for file in files)

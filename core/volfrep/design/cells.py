@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ..util.content import content_of, freeze
 from ..util.errors import VolfrepError
-from ..util.numbers import number_rows
+from ..util.numbers import number_rows, strut_rows
 from ..util.reading import read_json
 from ..util.types import Floats
 from .cell_files.parameters import CellParameter, chosen_values, read_parameters
@@ -121,6 +121,13 @@ class UnitCell:
             if _strut_keys(mirrored, self.struts) != own:
                 return False
         return True
+
+
+def find_same(nodes: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """(k,) rows of (n, 3) nodes that differ, in units of L, and (n,) which of them each is."""
+    steps = np.round(nodes / NODE_TOLERANCE).astype(np.int64)
+    _, first, inverse = np.unique(steps, axis=0, return_index=True, return_inverse=True)
+    return first, inverse.ravel()
 
 
 def _strut_keys(
@@ -328,26 +335,15 @@ def make_cell(
     ((3, 3), False)
     """
     points = number_rows(nodes, 3, "node", where, MAX_NODES)
-    index = number_rows(struts, 2, "strut", where, MAX_STRUTS)
+    rows = number_rows(struts, 2, "strut", where, MAX_STRUTS)
     bad = np.flatnonzero(((points < 0.0) | (points > 1.0)).any(axis=1))
     if len(bad):
         raise VolfrepError(
             f"In the {where}, node {bad[0]} lies outside the cell: give coordinates in units "
             "of L, from 0 to 1."
         )
-    with np.errstate(invalid="ignore"):  # a number too large for an index is none of the nodes
-        pairs = index.astype(np.int64)
-    bad = np.flatnonzero(
-        (pairs != index).any(axis=1) | ((pairs < 0) | (pairs >= len(points))).any(1)
-    )
-    if len(bad):
-        raise VolfrepError(
-            f"In the {where}, strut {bad[0]} must name two nodes by whole numbers "
-            f"from 0 to {len(points) - 1}."
-        )
-    grid = np.round(points / NODE_TOLERANCE).astype(np.int64)
-    _, first, inverse = np.unique(grid, axis=0, return_index=True, return_inverse=True)
-    inverse = inverse.ravel()
+    pairs = strut_rows(rows, len(points), where)
+    first, inverse = find_same(points)
     if len(first) < len(points):
         second = int(np.flatnonzero(first[inverse] != np.arange(len(points)))[0])
         raise VolfrepError(f"In the {where}, node {second} repeats node {first[inverse[second]]}.")

@@ -17,7 +17,6 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.even_points import even_points
 from ..util.linalg import frame_about, normalize, times
 from ..util.numbers import duration, round_off
-from ..util.progress import Monitor
 from ..util.types import Floats
 from . import costs
 from .spec import LatticeSpec
@@ -130,13 +129,12 @@ def share_deeper(solid: TriangleMesh, depth: float) -> float:
 def _depths(solid: TriangleMesh) -> Floats:
     """How deep points lie that are spread evenly over a solid, mm; ascending."""
     from ..spatial.proximity import closest_points  # of no use to blocks, and slow to import
-    from ..spatial.rays import inside_points
+    from ..spatial.rays import points_within
 
     low, high = solid.bounds
     # As many in the box as give about the wanted number inside.
     power = np.log2(DEPTH_POINTS * float((high - low).prod()) / max(abs(solid.volume), 1e-300))
-    points = low + even_points(3, round(min(max(power, 1.0), MOST_POINTS))) * (high - low)
-    points = points[inside_points(solid, points, Monitor())]
+    points = points_within(solid, round(min(max(power, 1.0), MOST_POINTS)))
     result: Floats = np.sort(closest_points(solid, points)[1])
     return result
 
@@ -205,12 +203,11 @@ def _density(solid: TriangleMesh, spec: LatticeSpec) -> float:
     cells = spec.cell_map
     if cells is None:
         return 1.0
-    from ..spatial.rays import inside_points  # as above
+    from ..spatial.rays import points_within  # as above
 
     low, high = solid.bounds
     middle = 0.5 * (low + high)
-    points = low + even_points(3, MAP_POINTS) * (high - low)
-    points = points[inside_points(solid, points, Monitor())]
+    points = points_within(solid, MAP_POINTS)
     if not len(points):
         return 1.0
     centre = middle if cells.centre is None else np.array(cells.centre, float)

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from ..grid.strut_graph import Wireframe
+from ..util.linalg import axes_across
 from ..util.types import Floats, Ints
 
 
@@ -65,11 +66,7 @@ def half_struts(frame: Wireframe, sides: int) -> HalfStruts:
     span = end - start
     length = np.linalg.norm(span, axis=1)
     along = span / length[:, None]
-    # Any frame across the axis will do, if it is the same from both ends.
-    other = np.eye(3)[np.abs(along).argmin(axis=1)]
-    first = np.cross(along, other)
-    first /= np.linalg.norm(first, axis=1, keepdims=True)
-    second = np.cross(along, first)
+    first, second = axes_across(along)  # the same from both ends
     turn = 2.0 * np.pi * np.arange(sides) / sides
     rays = np.cos(turn)[:, None] * first[:, None] + np.sin(turn)[:, None] * second[:, None]
     radii = corner_scale(sides) * frame.radii

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..util.errors import VolfrepError
-from ..util.linalg import times
+from ..util.linalg import axes_across, times
 from ..util.types import Floats, Ints
 from .strut_graph import Wireframe
 
@@ -148,10 +148,9 @@ def joint_volume(joint: Joint) -> float:
     steep = np.abs(slope) > 1e-6 * first[:, None]
     height = np.where(steep, (cone - first[:, None]) / np.where(steep, slope, 1.0), share)
     radius = (first[:, None] + height * slope) * np.sqrt(rng.random((count, SAMPLES)))
-    side = np.cross(direction, np.eye(3)[np.argmin(np.abs(direction), axis=1)])
-    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    one, two = axes_across(direction)
     angle = rng.random((count, SAMPLES, 1)) * 2.0 * np.pi
-    across = np.cos(angle) * side[:, None] + np.sin(angle) * np.cross(direction, side)[:, None]
+    across = np.cos(angle) * one[:, None] + np.sin(angle) * two[:, None]
     in_arms = height[..., None] * joint.arms[:, None] + radius[..., None] * across
     way = rng.normal(size=(SAMPLES, 3))
     way *= joint.ball / np.linalg.norm(way, axis=1, keepdims=True)

@@ -15,10 +15,10 @@ from typing import Generic, TypeVar
 
 from ..design.file_limits import FileLimits
 from ..design.spec import LatticeSpec
-from ..design.spec_parts import DEFAULT_RELATIVE_DEVIATION
-from ..graphs.surface import FEWEST_SIDES, sides_for
+from ..graphs.surface import FEWEST_SIDES
 from ..util.errors import VolfrepError
 from ..util.numbers import round_off
+from .kinds.graphs import sides_at
 
 T = TypeVar("T")
 
@@ -125,12 +125,8 @@ def _fit_corners(
     used = _used(limits, triangles, megabytes)
     if used <= 1.0:
         return Fitted(made, spec, used, "")
-    radius, relative = spec.strut_radius, DEFAULT_RELATIVE_DEVIATION
-    if spec.deviation is not None:
-        relative = spec.deviation / radius
-    elif spec.resolution is not None:
-        relative = (spec.cell_size / spec.resolution / radius) ** 2 / 16.0
-    finest = corners = sides_for(relative)
+    radius = spec.strut_radius
+    finest = corners = sides_at(spec, radius)
     for _ in range(MOST_FILES):
         if corners == FEWEST_SIDES:
             break

@@ -17,9 +17,8 @@ from ..grid.cell_grid import CellGrid
 from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
 from ..shell.domain import find_domain
-from ..spatial.even_points import even_points
 from ..spatial.proximity import SurfaceIndex, closest_points, index_surface
-from ..spatial.rays import inside_points
+from ..spatial.rays import inside_points, points_within
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 
@@ -97,13 +96,10 @@ class PartDepth:
         self._usual = self._without(~lengths.usual)
         self._others = tuple((self._without(~faces), length) for faces, length in lengths.others)
         self._kept = skin.bodies
-        low, high = solid.bounds
-        points = low + even_points(3, VOLUME_POINTS) * (high - low)
-        points = points[inside_points(solid, points, Monitor())]
         self.bodies = max(1, inspect(solid).quality.bodies)
-        self._points = points
-        self._sampled = self._below_usual(points)
-        self._sampled[self._below_others(points) <= 0.0] = -1.0
+        self._points = points_within(solid, VOLUME_POINTS)
+        self._sampled = self._below_usual(self._points)
+        self._sampled[self._below_others(self._points) <= 0.0] = -1.0
         self._domain: tuple[Skin | None, TriangleMesh] | None = None
         self._known: dict[tuple[bytes, float], Floats] = {}
 

@@ -22,6 +22,7 @@ from ..grid.placement import Placement, node_radii
 from ..grid.strut_graph import CellGraph, cell_graph
 from ..octants.octant import ALL_ACTIVE, OctantGrid, OctantKey, octant_grid, octant_mirrors
 from ..octants.octant_spec import OctantSpec
+from ..util.linalg import axes_across
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .assembly import Layout, coordinates
@@ -101,10 +102,7 @@ def _has_room(
     span = nodes.points[end] - nodes.points[start]
     length = np.linalg.norm(span, axis=1)
     axis = span / length[:, None]
-    aside = np.eye(3)[np.abs(axis).argmin(axis=1)]
-    first = np.cross(axis, aside)
-    first /= np.linalg.norm(first, axis=1)[:, None]
-    second = np.cross(axis, first)
+    first, second = axes_across(axis)
     radial = np.cos(angle)[:, None, None] * first + np.sin(angle)[:, None, None] * second
     count = len(angle)
     ends = np.tile(nodes.neighbours[start], (count, 1))

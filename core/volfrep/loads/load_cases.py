@@ -11,7 +11,7 @@ import numpy as np
 from ..mechanics.materials import SolidMaterial
 from ..util.errors import VolfrepError
 from ..util.numbers import number
-from .regions import Region, Vector
+from .regions import Region, Vector, check_vector
 
 #: A cone's directions lie no farther apart than so, degrees; and so much of what is linear in the
 #: force may be missed between them.
@@ -63,9 +63,9 @@ class Force:
     name: str = "force"
 
     def __post_init__(self) -> None:
-        _check(f"force of '{self.name}'", self.force)
+        check_vector(f"force of '{self.name}'", self.force)
         if self.at is not None:
-            _check(f"point of '{self.name}'", self.at)
+            check_vector(f"point of '{self.name}'", self.at)
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ class Moment:
     name: str = "moment"
 
     def __post_init__(self) -> None:
-        _check(f"moment of '{self.name}'", self.moment)
+        check_vector(f"moment of '{self.name}'", self.moment)
 
 
 @dataclass(frozen=True)
@@ -181,7 +181,7 @@ class LoadCase:
     heated: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
-        _check(f"acceleration of '{self.name}'", self.acceleration)
+        check_vector(f"acceleration of '{self.name}'", self.acceleration)
         if not abs(self.expansion) < 0.1:
             raise VolfrepError(
                 f"A strain of {self.expansion:g} by the temperature of '{self.name}' makes no "
@@ -301,8 +301,3 @@ def cone_of(case: LoadCase, number: int, angle: float) -> tuple[LoadCase, ...]:
             loads = (*case.loads[:number], replace(load, force=way), *case.loads[number + 1 :])
             found.append(replace(case, name=f"{case.name}, way {len(found) + 1}", loads=loads))
     return tuple(found)
-
-
-def _check(name: str, vector: Vector) -> None:
-    if len(vector) != 3 or not all(math.isfinite(value) for value in vector):
-        raise VolfrepError(f"The {name} must be three finite numbers.")

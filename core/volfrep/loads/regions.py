@@ -41,8 +41,8 @@ class InPlane:
     normal: Vector
 
     def __post_init__(self) -> None:
-        _check_vector("point of a plane", self.point)
-        _check_vector("normal of a plane", self.normal, not_zero=True)
+        check_vector("point of a plane", self.point)
+        check_vector("normal of a plane", self.normal, not_zero=True)
 
     def distance(self, points: Floats) -> Floats:
         """(n,) mm, from (n, 3) points."""
@@ -71,8 +71,8 @@ class InBox:
     high: Vector
 
     def __post_init__(self) -> None:
-        _check_vector("corner of a box", self.low)
-        _check_vector("corner of a box", self.high)
+        check_vector("corner of a box", self.low)
+        check_vector("corner of a box", self.high)
         if any(low > high for low, high in zip(self.low, self.high, strict=True)):
             raise VolfrepError(
                 f"The box from {_text(self.low)} to {_text(self.high)} is inside out: give its "
@@ -110,8 +110,8 @@ class InCylinder:
     length: float | None = None
 
     def __post_init__(self) -> None:
-        _check_vector("point of a cylinder", self.point)
-        _check_vector("axis of a cylinder", self.axis, not_zero=True)
+        check_vector("point of a cylinder", self.point)
+        check_vector("axis of a cylinder", self.axis, not_zero=True)
         _check_above_zero("radius of a cylinder", self.radius)
         if self.length is not None:
             _check_above_zero("length of a cylinder", self.length)
@@ -152,7 +152,7 @@ class NearPoint:
     within: float | None = None
 
     def __post_init__(self) -> None:
-        _check_vector("point", self.point)
+        check_vector("point", self.point)
         if self.within is not None:
             _check_above_zero("distance from a point", self.within)
 
@@ -301,7 +301,8 @@ def facet_middles(mesh: TriangleMesh) -> Floats:
     return middles
 
 
-def _check_vector(name: str, vector: Sequence[float], not_zero: bool = False) -> None:
+def check_vector(name: str, vector: Sequence[float], not_zero: bool = False) -> None:
+    """Refuse what is not three finite numbers, or where asked their zero."""
     if len(vector) != 3 or not all(math.isfinite(value) for value in vector):
         raise VolfrepError(f"The {name} must be three finite numbers.")
     if not_zero and not any(vector):

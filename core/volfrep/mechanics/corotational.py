@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from ..util.linalg import cross_matrix
+from ..util.linalg import axes_across, cross_matrix
 from ..util.types import Bools, Floats, Ints
 from .frame import CIRCLE
 
@@ -83,9 +83,7 @@ class Beams:
         self.nodes, self.elements, self.young = nodes, elements, young
         self.length = np.linalg.norm(span, axis=1)
         along = span / self.length[:, None]
-        aside = np.cross(np.eye(3)[np.argmin(np.abs(along), axis=1)], along)
-        aside /= np.linalg.norm(aside, axis=1, keepdims=True)
-        self.axes = np.stack([along, aside, np.cross(along, aside)], axis=2)
+        self.axes = np.stack([along, *axes_across(along)], axis=2)
         self.yield_stress = np.broadcast_to(np.asarray(yield_stress, float), young.shape)
         self.hardening = hardening
         area, shear = np.pi * radii**2, young / (2.0 * (1.0 + poisson))

@@ -21,6 +21,7 @@ from ..octants import sdf as frep
 from ..octants.sdf import Primitives
 from ..spatial.even_points import even_points
 from ..util.errors import VolfrepError
+from ..util.linalg import axes_across
 from ..util.search import OutOfReachError, Rising
 from ..util.types import Floats, Ints
 from .endless import EndlessCell, endless_cell, own_primitives, refuse_odd
@@ -229,9 +230,7 @@ def _points(bodies: Primitives, fillet: float) -> tuple[Floats, Floats]:
     angle = 2.0 * np.pi * second
     # Cylinders: across by the root of a share of the area.
     axis = bodies.direction[~sphere]
-    aside = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis), axis=1)])
-    aside /= np.linalg.norm(aside, axis=1, keepdims=True)
-    upward = np.cross(axis, aside)
+    aside, upward = axes_across(axis)
     height = (2.0 * first - 1.0)[..., None]
     turn = np.cos(angle)[~sphere, :, None] * aside[:, None]
     turn += np.sin(angle)[~sphere, :, None] * upward[:, None]

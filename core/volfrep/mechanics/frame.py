@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..util.errors import VolfrepError
+from ..util.linalg import axes_across
 from ..util.types import Floats, Ints
 from .elements import SHEARS
 
@@ -184,9 +185,7 @@ def _strut_stiffness(
     length = np.linalg.norm(span, axis=1)
     end = np.minimum(ends.length * radius, longest * length)
     along = span / length[:, None]
-    aside = np.cross(np.eye(3)[np.argmin(np.abs(along), axis=1)], along)
-    aside /= np.linalg.norm(aside, axis=1, keepdims=True)
-    axes = np.stack([along, aside, np.cross(along, aside)], axis=1)  # (m, 3, 3)
+    axes = np.stack([along, *axes_across(along)], axis=1)  # (m, 3, 3)
     if ends.length == 0.0:
         local = _beam(length, radius, Ends(), section, poisson)
     else:

@@ -95,6 +95,17 @@ def triangle_boxes(
     return np.array(low), np.array(high)
 
 
+def random_points(mesh: TriangleMesh, count: int) -> NDArray[np.float64]:
+    """(count, 3) points spread at random over a surface, the same for the same surface."""
+    area = mesh.areas()
+    random = np.random.default_rng(0)
+    pick = random.choice(len(area), count, p=area / area.sum())
+    weight = random.dirichlet((1.0, 1.0, 1.0), count)
+    a, b, c = (corner[pick] for corner in mesh.corners())
+    points: NDArray[np.float64] = weight[:, :1] * a + weight[:, 1:2] * b + weight[:, 2:] * c
+    return points
+
+
 def empty_mesh() -> TriangleMesh:
     """A mesh without vertices or triangles."""
     return TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32))

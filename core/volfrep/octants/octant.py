@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..design.cells import NODE_TOLERANCE, UnitCell, joint_radius
+from ..design.cells import UnitCell, find_same, joint_radius
 from ..mesh import remesh
 from ..util.types import OPEN, Floats, Ints, Periodic
 from . import sdf
@@ -86,9 +86,8 @@ def cell_copies(cell: UnitCell, offsets: Ints, mirror: int = 0) -> tuple[Floats,
     struts = (cell.struts[None] + (np.arange(len(offsets)) * len(local))[:, None, None]).reshape(
         -1, 2
     )
-    grid = np.round(nodes / NODE_TOLERANCE).astype(np.int64)
-    _, first, inverse = np.unique(grid, axis=0, return_index=True, return_inverse=True)
-    ends = np.unique(np.sort(inverse.ravel()[struts], axis=1), axis=0)
+    first, inverse = find_same(nodes)
+    ends = np.unique(np.sort(inverse[struts], axis=1), axis=0)
     return nodes[first], ends
 
 

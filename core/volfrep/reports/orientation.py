@@ -17,10 +17,11 @@ from typing import Any
 import numpy as np
 from scipy.spatial import ConvexHull
 
+from ..mesh.remesh import facet_normals
 from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.errors import VolfrepError
-from ..util.linalg import rotation
+from ..util.linalg import normalize, rotation
 from ..util.numbers import number
 from ..util.progress import Monitor, ProgressCallback
 from ..util.showing import Shown
@@ -112,9 +113,7 @@ class Orientations(Shown):
         Args:
             up: as of an `Orientation`.
         """
-        a, b, c = self.mesh.corners()
-        normal = np.cross(b - a, c - a)
-        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        normal = facet_normals(self.mesh)
         least = math.cos(math.radians(self.inclination))
         _, _, over = _overhang(self.mesh, normal, np.array(up), least)
         return compact(TriangleMesh(self.mesh.vertices, self.mesh.triangles[over]))
@@ -219,10 +218,7 @@ class _Judge:
         self.least = math.cos(math.radians(inclination))
         self.mesh = compact(mesh)
         a, b, c = self.mesh.corners()
-        normal = np.cross(b - a, c - a)
-        length = np.linalg.norm(normal, axis=1)
-        self.area = 0.5 * length
-        self.normal = normal / np.maximum(length, 1e-300)[:, None]
+        self.area, self.normal = self.mesh.areas(), facet_normals(self.mesh)
         self.middle = (a + b + c) / 3.0
         self.inside = _in_rooms(self.mesh)
         self.total = float(self.area.sum())
@@ -241,15 +237,14 @@ class _Judge:
         key = ((step[:, 0] * 128 + step[:, 1]) * 128 + step[:, 2]) * 2 + self.inside
         found, row = np.unique(key, return_inverse=True)
         count = len(found)
-        self.many = np.bincount(row, self.area, count)
+        self.many = np.asarray(np.bincount(row, self.area, count), float)
 
         def mean(values: Floats) -> Floats:
             sums = [np.bincount(row, self.area * values[:, k], count) for k in range(3)]
             result: Floats = np.stack(sums, axis=1) / np.maximum(self.many, 1e-300)[:, None]
             return result
 
-        normal = mean(self.normal)
-        self.many_normal = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        self.many_normal = normalize(mean(self.normal))
         self.many_middle = mean(self.middle)
         self.many_inside = found % 2 == 1
 

@@ -10,6 +10,7 @@ import numpy as np
 from ..sizing.analysis import Analysis
 from ..sizing.model import SizingModel
 from ..util.errors import VolfrepError
+from ..util.linalg import axes_across
 from ..util.types import Floats, Ints
 from .picture import SIZE, new_stage, show_stage
 
@@ -126,9 +127,7 @@ def tubes(
     start, end = nodes[struts[:, 0]], nodes[struts[:, 1]]
     along = end - start
     along /= np.linalg.norm(along, axis=1)[:, None]
-    aside = np.cross(np.eye(3)[np.argmin(np.abs(along), axis=1)], along)
-    aside /= np.linalg.norm(aside, axis=1)[:, None]
-    other = np.cross(along, aside)
+    aside, other = axes_across(along)
     share = np.linspace(0.0, 1.0, _RINGS)[None, :, None]
     angle = np.linspace(0.0, 2.0 * np.pi, _SIDES, endpoint=False)
     round_it = (

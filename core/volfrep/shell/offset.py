@@ -17,10 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh.topology import pieces_of
-from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
-from ..spatial.even_points import even_points
+from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh, random_points
 from ..spatial.proximity import closest_points, index_surface, sharing_index
-from ..spatial.rays import inside_points
+from ..spatial.rays import points_within
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
@@ -156,9 +155,7 @@ def _refuse_too_thin(solid: TriangleMesh, thickness: float, cubes: float, cube: 
 
 def _deepest(solid: TriangleMesh) -> float:
     """How deep points of a solid lie at most, about, mm: the deepest of some of them."""
-    low, high = solid.bounds
-    points = low + even_points(3, DEPTH_POINTS) * (high - low)
-    points = points[inside_points(solid, points, Monitor())]
+    points = points_within(solid, DEPTH_POINTS)
     return float(closest_points(solid, points)[1].max(initial=0.0))
 
 
@@ -175,11 +172,6 @@ def _measured(mesh: TriangleMesh, depth: Depth) -> Cavity:
     """The wall with its largest error at random points, the same for the same wall."""
     if not len(mesh.triangles):
         return Cavity(mesh, 0.0, np.zeros(3))
-    a, b, c = mesh.corners()
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    random = np.random.default_rng(0)
-    pick = random.choice(len(area), MEASURED_POINTS, p=area / area.sum())
-    weight = random.dirichlet((1.0, 1.0, 1.0), MEASURED_POINTS)
-    points = weight[:, :1] * a[pick] + weight[:, 1:2] * b[pick] + weight[:, 2:] * c[pick]
+    points = random_points(mesh, MEASURED_POINTS)
     error = np.abs(depth.deviation(points))
     return Cavity(mesh, float(error.max()), points[np.argmax(error)])

@@ -418,8 +418,7 @@ def _clear(
     corner = middle[triangles]
     way = _COMMON * np.asarray(corner - outside[triangles] + half, np.float64)
     # In the triangle's plane; at an edge that turns inwards the wall leaves it the other way.
-    plane = remesh.normals(corner)
-    plane /= np.maximum(np.linalg.norm(plane, axis=1), 1e-300)[:, None]
+    plane = remesh.unit_normals(corner)
     way -= np.einsum("tci,ti->tc", way, plane)[:, :, None] * plane[:, None, :]
     inwards = corner.mean(axis=1)[:, None] - corner
     way *= np.where(np.einsum("tci,tci->tc", way, inwards) < 0.0, -1.0, 1.0)[:, :, None]

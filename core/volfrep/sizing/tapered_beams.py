@@ -15,7 +15,7 @@ from functools import partial
 import numpy as np
 
 from ..mechanics.frame import CIRCLE, JointLaw, Section
-from ..util.linalg import cross_matrix
+from ..util.linalg import axes_across, cross_matrix
 from ..util.types import Bools, Floats, Ints
 
 #: No stiffened end is longer than this part of its strut (as in the deck for CalculiX).
@@ -271,9 +271,7 @@ def beams_of(
     span = nodes[struts[:, 1]] - nodes[struts[:, 0]]
     length = np.linalg.norm(span, axis=1)
     along = span / length[:, None]
-    aside = np.cross(np.eye(3)[np.argmin(np.abs(along), axis=1)], along)
-    aside /= np.linalg.norm(aside, axis=1, keepdims=True)
-    axes = np.stack([along, aside, np.cross(along, aside)], axis=1)
+    axes = np.stack([along, *axes_across(along)], axis=1)
     joined = np.ones((len(struts), 2), bool) if joined is None else joined
     return Beams(struts, length, axes, joined, material, section, ends)
 

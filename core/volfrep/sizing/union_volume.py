@@ -24,6 +24,7 @@ from ..graphs.clearance import segment_distances
 from ..grid.strut_graph import Graph
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import inside_points, segment_crossings
+from ..util.linalg import axes_across
 from ..util.progress import Monitor
 from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
@@ -346,9 +347,8 @@ class _Laying:
         angle = (2.0 * np.pi * (step * _GOLDEN + self.random.random((count, 1)))).ravel()
         strut = np.repeat(some, number)
         along = self.along[strut]
-        aside = np.cross(np.eye(3)[np.argmin(np.abs(along), axis=1)], along)
-        aside /= np.linalg.norm(aside, axis=1)[:, None]
-        way = np.cos(angle)[:, None] * aside + np.sin(angle)[:, None] * np.cross(along, aside)
+        one, two = axes_across(along)
+        way = -(np.cos(angle)[:, None] * one + np.sin(angle)[:, None] * two)
         origin = self.start[strut] + (share * self.length[strut])[:, None] * along
         weight = 2.0 * np.pi * self.length[strut] / number
         node = np.where(share < 0.5, self.struts[strut, 0], self.struts[strut, 1])

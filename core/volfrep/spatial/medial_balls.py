@@ -31,8 +31,7 @@ def wall_thickness(solid: TriangleMesh, places: Floats) -> Floats:
         places: near its surface, mm.
     """
     foot, _, triangle = closest_points(solid, places)
-    normal = remesh.normals(solid.vertices[solid.triangles[triangle]])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    normal = remesh.unit_normals(solid.vertices[solid.triangles[triangle]])
     radius = np.full(len(places), 0.5 * float(np.linalg.norm(np.ptp(solid.bounds, axis=0))))
     for _ in range(_SHRINKS):
         near, away, _ = closest_points(solid, foot - radius[:, None] * normal)

@@ -12,6 +12,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..util.progress import Monitor
 from ..util.ragged import PAIRS_PER_STEP, pairs_in_steps, spread
 from ..util.types import Floats, Ints
+from .even_points import even_points
 from .self_intersection import boxes_in_bins
 
 #: Bins along the longest side of the box of all segments and triangles.
@@ -44,6 +45,13 @@ def inside_points(mesh: TriangleMesh, points: Floats, monitor: Monitor) -> NDArr
         above = z > points[point, 2]
         np.add.at(winding, point[above], -step[above])
     return winding > 0
+
+
+def points_within(solid: TriangleMesh, points_log2: int) -> Floats:
+    """(n, 3) points spread evenly over a solid: those of 2 ** points_log2 in its box, mm."""
+    low, high = solid.bounds
+    points = low + even_points(3, points_log2) * (high - low)
+    return np.asarray(points[inside_points(solid, points, Monitor())])
 
 
 def lines_over(corners: Floats, points: Floats) -> Iterator[tuple[Ints, Ints]]:

@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.remesh import unit_normals
 from ..mesh.triangle_mesh import TriangleMesh, box_of, triangle_boxes
 from ..util.ragged import pairs_in_steps, spread
 from ..util.threads import in_threads
@@ -78,8 +79,7 @@ def _crossing_edges(
     mesh: TriangleMesh, among: Bools, depth: float
 ) -> Iterator[tuple[Ints, Ints, Floats]]:
     corners = mesh.vertices[mesh.triangles]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    normal = unit_normals(corners)
     for a, b in _together(close_pairs(corners, among)):
         # Neighbours over an edge have no edge that could run through the other.
         shared = np.zeros(len(a), np.int8)

@@ -13,11 +13,11 @@ from ..design.openings import DrainHoles
 from ..grid.strut_graph import Wireframe
 from ..mesh.booleans import as_manifold
 from ..mesh.topology import touching
-from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..mesh.triangle_mesh import TriangleMesh, compact, random_points
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
 from ..util.errors import VolfrepError
-from ..util.linalg import along
+from ..util.linalg import along, axes_across
 from ..util.numbers import place_text
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
@@ -204,7 +204,7 @@ class _Site:
             inward: unit vectors across the surface there.
         """
         count = len(start)
-        first, second = _across(axis)
+        first, second = axes_across(axis)
         angle = 2.0 * np.pi * np.arange(RAYS) / RAYS
         ring = np.cos(angle)[:, None, None] * first + np.sin(angle)[:, None, None] * second
         aside = self.radius * np.concatenate([np.zeros((1, count, 3)), ring])
@@ -232,7 +232,7 @@ class _Site:
 
     def cylinders(self, holes: _Holes) -> list[TriangleMesh]:
         """The holes' insides."""
-        first, second = _across(holes.axis)
+        first, second = axes_across(holes.axis)
         angle = 2.0 * np.pi * np.arange(SIDES) / SIDES
         ring = np.cos(angle)[:, None] * first[:, None] + np.sin(angle)[:, None] * second[:, None]
         # As much area as the circle has.
@@ -256,13 +256,6 @@ class _Site:
             )
             for a, b, r in zip(low, high, ring, strict=True)
         ]
-
-
-def _across(axis: Floats) -> tuple[Floats, Floats]:
-    """Two unit vectors across each of (n, 3), right-handed with it."""
-    first = np.cross(axis, np.eye(3)[np.abs(axis).argmin(axis=1)])
-    first /= np.linalg.norm(first, axis=1)[:, None]
-    return first, np.cross(axis, first)
 
 
 def _first_two(
@@ -365,12 +358,7 @@ def _lowest(
 
 def _on_boundary(site: _Site, void: TriangleMesh) -> Floats:
     """Random points of a void's surface that lie on the inner wall, the same for the same void."""
-    a, b, c = void.corners()
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    random = np.random.default_rng(0)
-    pick = random.choice(len(area), CANDIDATES, p=area / area.sum())
-    weight = random.dirichlet((1.0, 1.0, 1.0), CANDIDATES)
-    points = weight[:, :1] * a[pick] + weight[:, 1:2] * b[pick] + weight[:, 2:] * c[pick]
+    points = random_points(void, CANDIDATES)
     near = closest_points(site.domain, points)[1] < ON_WALL * site.thickness
     return np.asarray(points[near])
 

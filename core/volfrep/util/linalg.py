@@ -142,6 +142,12 @@ def rotation(axis: Floats, angle: float) -> Floats:
     return result
 
 
+def axes_across(axes: Floats) -> tuple[Floats, Floats]:
+    """Two unit vectors (n, 3) across each of (n, 3), right-handed with it."""
+    first = normalize(np.cross(axes, np.eye(3)[np.abs(axes).argmin(axis=1)]))
+    return first, np.cross(axes, first)
+
+
 def frame_about(axis: Floats) -> Floats:
     """(3, 3) right-handed frame whose third column is the (3,) axis, its first near the x-axis."""
     third = np.asarray(axis, float) / np.linalg.norm(axis)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from .errors import VolfrepError, brief
 
 if TYPE_CHECKING:
-    from .types import Floats
+    from .types import Floats, Ints
 
 #: The least and the most that a number of each unit may be. Files hold single precision: what lies
 #: farther than a kilometre from the origin would be known to a tenth of a millimetre.
@@ -134,6 +134,25 @@ def number_rows(
     if not np.isfinite(rows).all():
         raise VolfrepError(f"In the {where}, a {noun} holds a number that is not finite.")
     return rows
+
+
+def strut_rows(pairs: Floats, nodes: int, where: str) -> Ints:
+    """(m, 2) numbers of nodes from 0, of (m, 2) that a file or a user gives.
+
+    Raises:
+        VolfrepError: naming the first strut that has none of the nodes.
+    """
+    import numpy as np  # as above
+
+    with np.errstate(invalid="ignore"):  # a number too large for an index is none of the nodes
+        index: Ints = pairs.astype(np.int64)
+    bad = np.flatnonzero(((index != pairs) | (index < 0) | (index >= nodes)).any(axis=1))
+    if len(bad):
+        raise VolfrepError(
+            f"In the {where}, strut {bad[0]} must name two nodes by whole numbers from 0 to "
+            f"{nodes - 1}."
+        )
+    return index
 
 
 def round_off(value: float) -> str:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ..mechanics.elements import CORNERS
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.progress import Monitor
+from ..util.ragged import spread
 from ..util.types import Floats, Ints
 
 #: Lines along each edge of a column of parts.
@@ -132,9 +133,7 @@ def fill_grid(
 
 def _crossings(corners: list[Floats], first: Ints, wide: Ints) -> tuple[Ints, Floats, Floats]:
     """(k, 2) which line crosses a triangle, (k,) at what height, (k,) 1 into and -1 out of it."""
-    number = wide.prod(axis=1)
-    owner = np.repeat(np.arange(len(number)), number)
-    inside = np.arange(len(owner)) - np.repeat(np.cumsum(number) - number, number)
+    owner, inside = spread(wide.prod(axis=1))
     line = first[owner] + np.stack(np.divmod(inside, wide[owner, 1]), axis=1)
     place = line + _spread(line[:, ::-1])
     p, q, r = (corner[owner, :2] - place for corner in corners)

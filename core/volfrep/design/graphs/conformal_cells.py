@@ -16,7 +16,7 @@ import numpy as np
 from ...mesh.topology import pieces_of
 from ...util.errors import VolfrepError
 from ...util.types import Floats, Ints
-from ..cells import NODE_TOLERANCE, UnitCell
+from ..cells import NODE_TOLERANCE, UnitCell, find_same
 from .graph import MAX_STRUTS, GivenGraph, make_network
 
 #: Nodes nearer than this part of the shortest edge of a hexahedron are one.
@@ -104,12 +104,11 @@ def place_cells_along(
     origins = np.stack(np.meshgrid(*map(np.arange, counts), indexing="ij"), axis=-1).reshape(-1, 3)
     inside = (origins[:, None] + cell.nodes).reshape(-1, 3)
     # First where the grid's own steps say so, to ask for each place once.
-    steps = np.round(inside / NODE_TOLERANCE).astype(np.int64)
-    _, first, inverse = np.unique(steps, axis=0, return_index=True, return_inverse=True)
+    first, inverse = find_same(inside)
     places = np.asarray(place(inside[first] / np.array(counts)), float)
     if not np.isfinite(places).all():
         raise VolfrepError(f"The {where} has nodes at places that are not finite.")
-    rows = inverse.ravel()[_by_cell(cell, total)].reshape(-1, 2)
+    rows = inverse[_by_cell(cell, total)].reshape(-1, 2)
     length = np.linalg.norm(places[rows[:, 0]] - places[rows[:, 1]], axis=1)
     usual = float(np.median(length))
     if length.min() < 1e-3 * usual:

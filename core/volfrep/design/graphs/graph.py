@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...util.content import content_of, freeze
 from ...util.errors import VolfrepError
-from ...util.numbers import number, number_rows
+from ...util.numbers import number, number_rows, strut_rows
 from ..expression import SAMPLES, Expression, compile_expression
 from ..sampled_field import SampledField
 from ..scattered_field import PointField
@@ -183,14 +183,7 @@ def make_network(
     points, pairs = number_rows(nodes, 3, "node", where), number_rows(struts, 2, "strut", where)
     if len(pairs) > MAX_STRUTS:
         raise VolfrepError(f"The {where} has {len(pairs):,} struts: the limit is {MAX_STRUTS:,}.")
-    with np.errstate(invalid="ignore"):
-        index = pairs.astype(np.int64)
-    bad = np.flatnonzero(((index != pairs) | (index < 0) | (index >= len(points))).any(axis=1))
-    if len(bad):
-        raise VolfrepError(
-            f"In the {where}, strut {bad[0]} must name two nodes by whole numbers from 0 to "
-            f"{len(points) - 1}."
-        )
+    index = strut_rows(pairs, len(points), where)
     thick = np.asarray(radii, float)
     if thick.size:
         if thick.shape == (len(points),) and len(points) != len(index):

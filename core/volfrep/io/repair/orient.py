@@ -8,7 +8,7 @@ import numpy as np
 from ...mesh.topology import Sides, pieces_of
 from ...mesh.triangle_mesh import TriangleMesh
 from ...util.errors import VolfrepError
-from ...util.linalg import normalize
+from ...util.linalg import axes_across, normalize
 from ...util.numbers import place_text, plural
 from ...util.types import Bools, Ints
 
@@ -82,9 +82,7 @@ def _round_edges(mesh: TriangleMesh, sides: Ints, number: Ints, many: Ints) -> t
     low, high = sides[many].min(axis=1), sides[many].max(axis=1)
     origin = mesh.vertices[low]
     along = normalize(mesh.vertices[high] - origin)
-    across = np.eye(3)[np.abs(along).argmin(axis=1)]
-    u = normalize(np.cross(along, across))
-    v = np.cross(along, u)
+    u, v = axes_across(along)
     third = mesh.triangles.ravel()[many // 3 * 3 + (many % 3 + 2) % 3]
     to_third = mesh.vertices[third] - origin
     angle = np.arctan2(np.einsum("ij,ij->i", to_third, v), np.einsum("ij,ij->i", to_third, u))

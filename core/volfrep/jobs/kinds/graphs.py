@@ -381,13 +381,17 @@ def block_of_cells(spec: LatticeSpec, counts: tuple[int, int, int], corner: Floa
 
 def mesh_graph(frame: Wireframe, spec: LatticeSpec, monitor: Monitor) -> GraphSurface:
     """The surface of a network at the specification's resolution or deviation."""
-    radius = float(np.median(frame.radii))
+    return graph_surface(frame, sides_at(spec, float(np.median(frame.radii))), monitor)
+
+
+def sides_at(spec: LatticeSpec, radius: float) -> int:
+    """How many corners round a strut of a radius, mm, a specification asks for."""
     relative = DEFAULT_RELATIVE_DEVIATION
     if spec.deviation is not None:
         relative = spec.deviation / radius
     elif spec.resolution is not None:
         relative = (spec.cell_size / spec.resolution / radius) ** 2 / 16.0
-    return graph_surface(frame, sides_for(relative), monitor)
+    return sides_for(relative)
 
 
 def overlap_warnings(made: GraphSurface, frame: Wireframe) -> tuple[str, ...]:

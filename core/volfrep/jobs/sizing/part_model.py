@@ -155,8 +155,7 @@ def thickness_of_skin(solid: TriangleMesh, spec: LatticeSpec) -> float | Callabl
 def _thickness_along(solid: TriangleMesh, field: ThicknessField, points: Floats) -> Floats:
     """(n,) mm, how far below points of the surface the wall is where thickness follows a field."""
     triangle = closest_points(solid, points)[2]
-    normal = remesh.normals(solid.vertices[solid.triangles[triangle]])
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    normal = remesh.unit_normals(solid.vertices[solid.triangles[triangle]])
     depth = field(points)
     for _ in range(_ALONG):
         depth = field(points - depth[:, None] * normal)

@@ -11,7 +11,13 @@ from test_freecad_fem_loads import add, analysis_of, face_at
 
 from freecad_volfrep import make_lattice_infill, size_lattice
 from freecad_volfrep.features.infill.live_preview import LivePreview
-from freecad_volfrep.features.sizing.sized_states import sized_states, why_no_states
+from freecad_volfrep.features.sizing.sized_states import (
+    limit_names,
+    limits_of,
+    sized_states,
+    why_no_limits,
+    why_no_states,
+)
 from freecad_volfrep.features.sizing.sizing import (
     GOALS,
     ONLY_OF,
@@ -156,6 +162,9 @@ def test_what_struts_carry_is_kept_with_the_document(infill, tmp_path):
         assert ends == pytest.approx(state.ends, abs=1e-4)
         assert kept["Stress"] == pytest.approx(state.stress, rel=1e-6)
         assert kept["Displacement"] == pytest.approx(state.displacement, rel=1e-6)
+        assert limits_of(again, "Governing limit")[1] == pytest.approx(state.governing)
+        assert len(limit_names(again, "Governing limit")) == state.governing.max() + 1
+        assert "skin was not sized" in why_no_limits(again, "Governing limit of the skin")
         shown = LivePreview(again).show()
         assert shown.is_sized
         struts = shown.preview

@@ -117,6 +117,7 @@ def size_and_take(doc, obj):
     picture("sizing_2_sized")
     figures["shades"] = shades("sizing_2_sized", view_3d())
     check("in colours", figures["shades"] > 200, figures["shades"])
+    show_what_governs("sizing_2_governs", {"stress, bend", "smallest radius", "no limit"})
     bar = part("Steps").horizontalScrollBar()
     check("no column of the steps is cut off", bar.maximum() == 0, bar.maximum())
     click(part("Plot"))
@@ -143,6 +144,22 @@ def size_and_take(doc, obj):
     doc.undo()
     doc.recompute()
     check("which is taken back", (obj.Mesh.CountFacets, obj.Volume.Value) == before)
+
+
+def show_what_governs(name, wanted, quantity="governing"):
+    """The dock shows it in few colours and says it in words, the mouse's, too, without a scale."""
+    choice = dock().findChild(QtGui.QComboBox, "Quantity")
+    choice.setCurrentIndex(choice.findData(quantity))
+    scale = dock().findChild(QtGui.QDoubleSpinBox, "To")
+    check("names have no scale", wait_until(lambda: not scale.isVisible(), 60))
+    pointed, middle = dock().findChild(QtGui.QLabel, "Said"), view_3d().rect().center()
+    told = set()
+    for aside in range(-140, 141, 28):
+        move_mouse(view_3d().mapToGlobal(QtCore.QPoint(middle.x() + aside, middle.y())))
+        if comes_true(lambda: pointed.text().endswith(" under the mouse"), 2):
+            told.add(pointed.text().removesuffix(" under the mouse"))
+    check("the mouse reads what governs", told and told <= wanted, told)
+    picture(name)
 
 
 @slow
@@ -240,6 +257,10 @@ def colour_the_preview(obj):
     choice = panel_part("ColourBy", QtGui.QComboBox)
     item = choice.model().item(choice.findData("Stress"))
     check("the preview may be coloured by stress", item.isEnabled(), item.toolTip())
+    governs = choice.model().item(choice.findData("Governing limit"))
+    choice.setCurrentIndex(governs.row())
+    check("and by what governs", wait_until(lambda: "VolfrepLegend" in scene_names()))
+    picture("sizing_4_preview_governs")
     choice.setCurrentIndex(item.row())
     settle()
     check("a legend says what colours mean", wait_until(lambda: "VolfrepLegend" in scene_names()))
@@ -522,6 +543,10 @@ def size_the_skin(doc, obj):
     picture("skin_3_colours")
     figures["shades of the skin"] = shades("skin_3_colours", view_3d())
     check("in colours", figures["shades of the skin"] > 150, figures["shades of the skin"])
+    wanted = {"smallest thickness", "largest thickness", "skin stress, bend", "no limit"}
+    show_what_governs("skin_4_governs", wanted, "Governing limit of the skin")
+    wanted = {"stress, bend", "smallest radius", "no limit"}
+    show_what_governs("skin_5_governs", wanted, "Governing limit")
     obj.ViewObject.ColourBy = "None"
     dock().close()
     settle()

@@ -565,9 +565,10 @@ RUN_OPTIONS = (
         "FILE.png", SIZED_PICTURE_GROUP, writes="picture",
     ),
     RunOption(
-        "colour", ("size",), "what the colour tells (default radius); skin: its thickness",
+        "colour", ("size",),
+        "what the colour tells (default radius); skin: its thickness; governing: the limit",
         "WORD", SIZED_PICTURE_GROUP,
-        choices=("radius", "stress", "buckling", "displacement", "skin"),
+        choices=("radius", "stress", "buckling", "displacement", "skin", "governing"),
     ),
     RunOption(
         "case", ("size",), "of which load case (default: the first)", "NAME", SIZED_PICTURE_GROUP,

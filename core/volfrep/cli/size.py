@@ -200,5 +200,5 @@ def _picture(options: SizeOptions, made: SizedPart) -> None:
     sizing_picture(
         made.model, made.sized.analysis, options.picture, colour=options.colour,
         case=names.index(options.case) if options.case is not None else 0,
-        deformed=options.deformed,
+        deformed=options.deformed, governing=(made.governing.rows, made.governing.told),
     )  # fmt: skip

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A sized lattice in colour: by radius, stress, buckling or displacement, deformed or not."""
+"""A sized lattice in colour: by radius, stress and the like, or what governs; deformed or not."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from ..sizing.analysis import Analysis
+from ..sizing.limit_colours import limit_colour
 from ..sizing.model import SizingModel
 from ..util.errors import VolfrepError
 from ..util.linalg import axes_across
@@ -21,6 +24,7 @@ COLOURS = {
     "buckling": "share of the buckling load",
     "displacement": "displacement, mm",
     "skin": "thickness of the skin, mm",
+    "governing": "governing limit",
 }
 #: Sides of a drawn strut, and rings along it.
 _SIDES, _RINGS = 10, 5
@@ -39,6 +43,7 @@ def sizing_picture(
     size: tuple[int, int] = SIZE,
     y_up: bool = False,
     scale: tuple[float, float] | None = None,
+    governing: tuple[Ints, Sequence[str]] | None = None,
 ) -> None:
     """Draw the struts of a design into a PNG, or show them in a window; a skin is transparent.
 
@@ -55,6 +60,7 @@ def sizing_picture(
         y_up: whether y is up in it, and not z.
         scale: the values at the ends of the colours, so that pictures compare; None for the
             least and the largest that there are.
+        governing: of each strut the row of what governs it, and the names; for that colour.
 
     Raises:
         VolfrepError: pyvista is missing, the file cannot be written, or there is no skin to colour.
@@ -76,16 +82,28 @@ def sizing_picture(
         )
         surface.cell_data[COLOURS[colour]] = shells.thickness
     else:
-        values = _values(model, analysis, colour, case, of_struts)
+        if colour == "governing":
+            assert governing is not None
+            values = np.repeat(governing[0][:, None], 2, axis=1).astype(np.float64)
+        else:
+            values = _values(model, analysis, colour, case, of_struts)
         points, facets, shades = tubes(nodes, struts, of_struts, values)
         surface = pyvista.PolyData.from_regular_faces(points, facets)
         surface.point_data[COLOURS[colour]] = shades
+    bar: dict[str, Any] = {"n_labels": 5, "fmt": "%.3g"}
+    colours: dict[str, Any] = {"cmap": _COLOURS, "clim": scale}
+    if colour == "governing" and governing is not None:
+        count = len(governing[1])
+        colours = {
+            "cmap": [limit_colour(k) for k in range(count)], "clim": (-0.5, count - 0.5),
+            "n_colors": count, "annotations": dict(enumerate(governing[1])),
+        }  # fmt: skip
+        bar = {"n_labels": 0}
     stage.add_mesh(
-        surface, scalars=COLOURS[colour], cmap=_COLOURS, clim=scale, smooth_shading=True,
-        ambient=0.35, diffuse=0.65,
-        scalar_bar_args={
-            "title": COLOURS[colour], "color": "black", "vertical": True, "n_labels": 5,
-            "position_x": 0.88, "position_y": 0.25, "height": 0.5, "fmt": "%.3g",
+        surface, scalars=COLOURS[colour], smooth_shading=True, ambient=0.35, diffuse=0.65,
+        **colours, scalar_bar_args={
+            "title": COLOURS[colour], "color": "black", "vertical": True,
+            "position_x": 0.88, "position_y": 0.25, "height": 0.5, **bar,
         },
     )  # fmt: skip
     if model.skin is not None and colour != "skin":

@@ -8,6 +8,8 @@ would make at least so much thinner, as long as that ends with less mass.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..util.errors import VolfrepError
@@ -68,6 +70,24 @@ def of_list(
 
 
 _Tried = tuple[Analysis, bool, Ints]
+
+
+def list_figures(radii: Floats, free: Analysis, final: Analysis) -> dict[str, Any]:
+    """How many nodes have each radius of a list, and what the list costs.
+
+    Args:
+        radii: (s,) the list, mm.
+        free: the design of any radii.
+        final: that of the list.
+    """
+    row = np.abs(final.radii[:, None] - radii).argmin(axis=1)
+    return {
+        "radii_mm": radii.tolist(),
+        "nodes": np.bincount(row, minlength=len(radii)).tolist(),
+        "any_radii_strut_volume_mm3": free.volume,
+        "volume_over_any_radii": final.volume / free.volume,
+        "compliance_over_any_radii": (final.compliance / free.compliance).tolist(),
+    }
 
 
 def _order(found: _Tried) -> tuple[bool, float]:

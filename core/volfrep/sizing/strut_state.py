@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..util.types import Floats
+from ..util.types import Floats, Ints
 from .analysis import Analysis, Problem
 
 #: What struts may be coloured by: attributes of a `StrutState`, and what they are called.
@@ -17,6 +17,7 @@ QUANTITIES = {
     "stress": "Stress (von Mises), MPa",
     "buckling": "Share of the buckling load",
     "displacement": "Displacement, mm",
+    "governing": "Governing limit",
 }
 #: Deformed, the largest displacement is drawn as this part of the lattice's size.
 DRAWN = 0.05
@@ -33,6 +34,9 @@ class StrutState:
         displacements: (m, 2, 3) mm, displacements of the ends.
         stress: (m, 2) von Mises at the ends, MPa.
         buckling: (m, 2) share of its buckling load that each strut carries, alike at both ends.
+        governing: (m, 2) the row of what says how thick each strut is, in the names of
+            `volfrep.jobs.sizing.governing`, alike at both ends and in all cases; None where nothing
+            was sized.
     """
 
     name: str
@@ -41,6 +45,7 @@ class StrutState:
     displacements: Floats
     stress: Floats
     buckling: Floats
+    governing: Floats | None = None
 
     @property
     def displacement(self) -> Floats:
@@ -54,13 +59,22 @@ class StrutState:
         return values
 
 
-def strut_states(problem: Problem, analysis: Analysis) -> tuple[StrutState, ...]:
-    """The struts of a design in each of its load cases."""
+def strut_states(
+    problem: Problem, analysis: Analysis, governing: Ints | None = None
+) -> tuple[StrutState, ...]:
+    """The struts of a design in each of its load cases.
+
+    Args:
+        problem: that was solved.
+        analysis: its solution.
+        governing: (m,) the row of what says how thick each strut is.
+    """
     structure = problem.structure
     struts = structure.beams.struts
     ends = structure.nodes[struts]
     radii = problem.radii.of_struts(analysis.radii)
     displacements = analysis.displacements[struts, :3]  # (m, 2, 3, k)
+    governed = None if governing is None else np.repeat(governing[:, None], 2, axis=1).astype(float)
     return tuple(
         StrutState(
             case.name,
@@ -69,6 +83,7 @@ def strut_states(problem: Problem, analysis: Analysis) -> tuple[StrutState, ...]
             displacements[..., k],
             analysis.stress[..., k],
             np.repeat(analysis.buckling[:, k : k + 1], 2, axis=1),
+            governed,
         )
         for k, case in enumerate(problem.cases)
     )

@@ -180,6 +180,8 @@ PROPERTIES = (
     _internal("App::PropertyVectorList", "SizedSkinPoints", "Of SizedSkin, as Base lies", []),
     _internal("App::PropertyFloatList", "SizedSkin", "That the skin was sized to, mm", []),
     _internal("App::PropertyFloatList", "SizedStates", "What the sized struts carry", []),
+    _internal("App::PropertyIntegerList", "SizedLimits", "What governs each sized strut", []),
+    _internal("App::PropertyIntegerList", "SizedSkinLimits", "What governs SizedSkin", []),
     _internal("App::PropertyString", "SizedFor", "Of all that SizedStates are of", ""),
     _internal("App::PropertyString", "SizedLoads", "Of what the struts were sized for", ""),
     _internal("App::PropertyString", "SizingReport", "What was asked and found, as JSON", ""),

@@ -9,7 +9,8 @@ differ by some percent, because the skin's triangles follow the struts that it w
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
@@ -17,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from freecad_volfrep.features.infill.freshness import fingerprint_of, is_of
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP
+from freecad_volfrep.features.infill.sized_radii import sized_skin
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
 from volfrep.util.content import digest_of
 from volfrep.util.errors import VolfrepError
 
@@ -32,6 +34,18 @@ NOT_SIZED = QT_TRANSLATE_NOOP(
 CHANGED = QT_TRANSLATE_NOOP(
     "VolfrepColours", "The lattice is not the one that was sized any more: size it again."
 )
+NO_LIMITS = QT_TRANSLATE_NOOP(
+    "VolfrepColours", "What governs is not kept in the document: Loads and Sizing puts it there."
+)
+NO_SKIN = QT_TRANSLATE_NOOP(
+    "VolfrepColours", "The skin was not sized: Loads and Sizing does that with a thinnest skin."
+)
+#: What may govern, marked for translation: limits and bounds of `volfrep.jobs.sizing.governing`.
+LIMIT_NAMES = marked(
+    "VolfrepSizePanel", "stress", "displacement", "buckling", "frame buckling", "frequency",
+    "skin stress", "smallest radius", "largest radius", "smallest thickness", "largest thickness",
+    "stiffness", "no limit",
+)  # fmt: skip
 #: Of an end of a strut: its place, and the largest of all load cases, by the names of
 #: `volfrep.jobs.figures.point_values.OF_LOADS`.
 _KEPT = ("Stress", "Buckling", "Displacement")
@@ -55,6 +69,9 @@ def store_states(obj: App.DocumentObject, states: Sequence[StrutState], loads: L
     kept = np.concatenate([states[0].ends, np.stack(most, axis=2)], axis=2)
     # In single precision, whose zeros a file of FreeCAD's packs to half the size.
     obj.SizedStates = kept.astype(np.float32).ravel().tolist()
+    governing = states[0].governing
+    assert governing is not None
+    obj.SizedLimits = governing[:, 0].astype(int).tolist()
     obj.SizedFor = fingerprint_of(obj, *obj.Proxy.read(obj))
     obj.SizedLoads = digest_of(loads)
 
@@ -67,8 +84,69 @@ def sized_states(
     Returns:
         (m, 2, 3) ends of the struts, mm; (m, 2) the values there by what they are called.
     """
+    from volfrep.jobs.figures.point_values import GOVERNING
+
     kept = np.array(obj.SizedStates, np.float64).reshape(-1, 2, _NUMBERS)
-    return kept[..., :3], {name: kept[..., 3 + k] for k, name in enumerate(_KEPT)}
+    values = {name: kept[..., 3 + k] for k, name in enumerate(_KEPT)}
+    if len(obj.SizedLimits) == len(kept):  # earlier releases kept none
+        values[GOVERNING[0]] = np.repeat(np.array(obj.SizedLimits, float)[:, None], 2, axis=1)
+    return kept[..., :3], values
+
+
+def limits_of(
+    obj: App.DocumentObject, quantity: str
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Where something governs, and the row of that: of struts' ends, or of the skin's points.
+
+    Args:
+        obj: the infill.
+        quantity: one of `volfrep.jobs.figures.point_values.GOVERNING`.
+
+    Raises:
+        VolfrepError: it is not kept, or is of other values.
+    """
+    why = why_no_limits(obj, quantity)
+    if why:
+        raise VolfrepError(why)
+    ends, values = sized_states(obj)
+    if quantity in values:
+        return ends, values[quantity]
+    skin = sized_skin(obj)
+    assert skin is not None
+    return skin.points, np.array(obj.SizedSkinLimits, float)
+
+
+def limit_names(obj: App.DocumentObject, quantity: str) -> tuple[str, ...]:
+    """What governs by its row, in the user's language; empty for a quantity that is a number."""
+    from volfrep.jobs.figures.point_values import GOVERNING
+
+    if quantity not in GOVERNING or not obj.SizingReport:
+        return ()
+    report = json.loads(obj.SizingReport)
+    rows = report if quantity == GOVERNING[0] else report.get("skin", {})
+    return names_of_limits((row["what"], row["case"]) for row in rows.get("governed_by", ()))
+
+
+def names_of_limits(limits: Iterable[tuple[str, str]]) -> tuple[str, ...]:
+    """Limits with their load cases, in the user's language."""
+    return tuple(
+        f"{translate('VolfrepSizePanel', what)}{', ' * bool(case)}{case}" for what, case in limits
+    )
+
+
+def why_no_limits(obj: App.DocumentObject, quantity: str) -> str:
+    """Why it is not known what governs, in English; empty where it is."""
+    from volfrep.jobs.figures.point_values import GOVERNING
+
+    why = why_no_states(obj)
+    if why:
+        return why
+    if quantity == GOVERNING[0]:
+        return "" if quantity in sized_states(obj)[1] else str(NO_LIMITS)
+    skin = sized_skin(obj)
+    if skin is None:
+        return str(NO_SKIN)
+    return "" if len(skin.points) == len(obj.SizedSkinLimits) else str(NO_LIMITS)
 
 
 def why_no_states(obj: App.DocumentObject) -> str:

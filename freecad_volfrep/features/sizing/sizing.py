@@ -16,12 +16,19 @@ from freecad_volfrep.features.infill.materials import material_of
 from freecad_volfrep.features.infill.sized_radii import store_radii, store_skin
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.reports.tables import Table
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.design.parameters.specification import spec_value
 from volfrep.design.parameters.table import BY_NAME
 from volfrep.util.errors import VolfrepError
 
-from .sized_states import is_sized_for, sized_states, store_states, why_no_states
+from .sized_states import (
+    is_sized_for,
+    limits_of,
+    names_of_limits,
+    sized_states,
+    store_states,
+    why_no_states,
+)
 
 if TYPE_CHECKING:
     from volfrep.jobs.sizing import Goal, Printing, SizedPart
@@ -41,11 +48,6 @@ ONLY_OF = {
     "mass": ("max_stress", "safety", "max_displacement", "buckling", "min_frequency"),
     "stiffness": ("strut_mass",),
 }
-#: The limits' names, marked for translation.
-LIMIT_NAMES = marked(
-    "VolfrepSizePanel", "stress", "displacement", "buckling", "frame buckling", "frequency",
-    "skin stress",
-)  # fmt: skip
 #: What the panel begins with: safety against yield; radii over the present one.
 FIRST_SAFETY, SMALLEST, LARGEST = 1.5, 0.5, 2.0
 NO_ANALYSIS = (
@@ -83,6 +85,11 @@ class Outcome:
     def mass(self) -> float:
         """Of the struts, g."""
         return _mass(self.part.sized.analysis.volume, self.density)
+
+    @property
+    def limits(self) -> tuple[str, ...]:
+        """What governs struts, by the rows of `states`."""
+        return names_of_limits(self.part.governing.names)
 
     @property
     def printed(self) -> str:
@@ -376,6 +383,8 @@ def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
     spec = outcome.part.spec
     if "skin" in outcome.part.report:
         store_skin(obj, spec.shell, spec.skin_field)
+    skin = outcome.part.skin_governing
+    obj.SizedSkinLimits = [] if skin is None else skin.rows.tolist()
     shortest = spec_value(spec, BY_NAME["network_shortest"])
     if shortest:  # other radii would draw other struts together
         obj.NetworkShortest = shortest
@@ -486,11 +495,15 @@ def carried_by(obj: App.DocumentObject, quantity: str) -> dict[str, Any]:
 
     Args:
         obj: a lattice infill.
-        quantity: one of `OF_LOADS` there.
+        quantity: one of `OF_LOADS` or `GOVERNING` there.
 
     Raises:
         VolfrepError: there is neither, or the loads make no sense.
     """
+    from volfrep.jobs.figures.point_values import GOVERNING
+
+    if quantity in GOVERNING:
+        return {"carried": limits_of(obj, quantity)}
     try:
         analyses = analyses_of(obj)
     except VolfrepError:

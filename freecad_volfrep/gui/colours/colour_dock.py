@@ -72,8 +72,13 @@ class MeshColours:
         return str(translate("VolfrepColours", QUANTITIES.get(self.quantity, "")))
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """What the values are rows of; empty for a number."""
+        return self._colouring.names
+
+    @property
     def range(self) -> tuple[float, float] | None:
-        """Of the scale; None while there are no values."""
+        """Of the scale; None while there is none."""
         return self._colouring.range
 
     @property
@@ -168,6 +173,7 @@ class ColourDock(ObjectDock):
             self._quantity.blockSignals(False)
         ends = self._colours.range
         self._range.setEnabled(ends is not None)
+        self._range.setVisible(not self._colours.names)
         why = self._colours.why
         self._range.setToolTip(why)
         if why:
@@ -234,6 +240,9 @@ class ColourDock(ObjectDock):
             if self._colours.printed:
                 of = translate("VolfrepColours", "Of struts as printed ({table}).")
                 text = f"{of.format(table=self._colours.printed)} {text}"
+        elif self._colours.names:
+            name = self._colours.names[round(value)]
+            text = translate("VolfrepColours", "{value} under the mouse").format(value=name)
         else:
             unit = self._colours.title.rpartition(", ")[2] if "," in self._colours.title else ""
             text = translate("VolfrepColours", "{value} under the mouse").format(
@@ -248,7 +257,10 @@ def open_colours(obj: App.DocumentObject) -> ColourDock:
 
 
 def open_struts(
-    obj: App.DocumentObject, states: Sequence[StrutState], printed: str = ""
+    obj: App.DocumentObject,
+    states: Sequence[StrutState],
+    printed: str = "",
+    limits: tuple[str, ...] = (),
 ) -> ColourDock:
     """Show what an infill's struts carry, in the place of what is shown in this way.
 
@@ -256,8 +268,9 @@ def open_struts(
         obj: the infill.
         states: its struts in each load case.
         printed: title of the table by which they are as printed; empty for as drawn.
+        limits: what governs them, by the rows of the states; empty where they were not sized.
     """
-    return _put_up(obj, lambda obj: StrutColours(obj, states, printed))
+    return _put_up(obj, lambda obj: StrutColours(obj, states, printed, limits))
 
 
 def _put_up(obj: App.DocumentObject, colours: Any) -> ColourDock:

@@ -10,7 +10,8 @@ import numpy as np
 
 from freecad_volfrep.features.jobs.job import Job
 from freecad_volfrep.features.jobs.progress import job_title
-from freecad_volfrep.gui.draw.coloured_struts import colours_of
+from freecad_volfrep.features.sizing.sized_states import limit_names
+from freecad_volfrep.gui.draw.coloured_struts import colours_of, row_colours
 from freecad_volfrep.gui.draw.legend import Legend
 from freecad_volfrep.gui.jobs.background import begin
 from freecad_volfrep.gui.jobs.in_steps import do_in_steps, drop_steps
@@ -36,6 +37,8 @@ QUANTITY_NAMES = marked(
     "Stress",
     "Buckling",
     "Displacement",
+    "Governing limit",
+    "Governing limit of the skin",
     "Field",
 )
 #: What a legend says, marked for translation.
@@ -50,7 +53,9 @@ TITLES = marked(
     "Displacement, mm",
     "Field of the radius",
 )
-#: Triangles that show the skin's thickness have no longer sides than this part of the part's size.
+#: What is the skin's own.
+OF_SKIN = ("Skin", "Governing limit of the skin")
+#: Triangles that show it have no longer sides than this part of the part's size.
 SKIN_SIDES = 80.0
 BY = QT_TRANSLATE_NOOP("App::Property", "What the lattice is coloured by")
 FROM = QT_TRANSLATE_NOOP(
@@ -118,12 +123,13 @@ class Colouring:
         known = self._known[self._key]
         low, high = self.range_of(known)
         kinds = self._kinds()
-        rows = colours_of(known.values, low, high)
+        names = self.names
+        rows = row_colours(known.values) if names else colours_of(known.values, low, high)
         self._part.uncolour()
         self._steps = self._part.coloured(kinds, rows)
         do_in_steps(self._steps)
         if view.Visibility:
-            self._legend.show(self._obj, quantity, low, high)
+            self._legend.show(self._obj, quantity, low, high, names)
         else:
             self._legend.remove()
 
@@ -136,9 +142,14 @@ class Colouring:
 
     @property
     def range(self) -> tuple[float, float] | None:
-        """Of what is shown; None while nothing is."""
+        """Of the scale that is shown; None while there is none."""
         known = self._known.get(self._key)
-        return None if known is None else self.range_of(known)
+        return None if known is None or self.names else self.range_of(known)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What the values are rows of; empty for a number."""
+        return limit_names(self._obj, self._obj.ViewObject.ColourBy)
 
     def value_at(self, place: Any) -> float | None:
         """The value at a point of what is drawn, in its own coordinates; None while there is none.
@@ -165,7 +176,7 @@ class Colouring:
 
         view = self._obj.ViewObject
         if view.ColourBy != "Overhang":
-            return (OUTSIDE,) if view.ColourBy == "Skin" else (LATTICE,)
+            return (OUTSIDE,) if view.ColourBy in OF_SKIN else (LATTICE,)
         return (WALL, LATTICE) if view.Transparency else (OUTSIDE, WALL, LATTICE)
 
     @property
@@ -181,7 +192,7 @@ class Colouring:
     def _ask(self, quantity: str) -> None:
         """Have the values made beside the window."""
         from freecad_volfrep.features.sizing.sizing import carried_by
-        from volfrep.jobs.figures.point_values import OF_LOADS, point_values
+        from volfrep.jobs.figures.point_values import GOVERNING, OF_LOADS, point_values
         from volfrep.process.worker import Call
 
         key = self._key
@@ -197,14 +208,14 @@ class Colouring:
             is_of_mesh = quantity == "Overhang"
             solid, spec, cache = (obj.Proxy.wanted if is_of_mesh else obj.Proxy.inputs)(obj)
             options: dict[str, Any] = {"cache": cache, "up": tuple(obj.BuildDirection)}
-            if quantity in OF_LOADS:
+            if quantity in (*OF_LOADS, *GOVERNING):
                 options.update(carried_by(obj, quantity))
         except VolfrepError as error:
             self.why, self._asked = str(error), None
             tell_error(self.why)
             return
         kinds = self._kinds()
-        if quantity == "Skin":  # flat faces have corners only
+        if quantity in OF_SKIN:  # flat faces have corners only
             part.refine(kinds, float(np.linalg.norm(np.ptp(solid.bounds, axis=0))) / SKIN_SIDES)
         arrays = part.points(kinds), part.normals(kinds)
 

@@ -13,7 +13,13 @@ import numpy as np
 from freecad_volfrep import preferences
 from freecad_volfrep.bridge.solids import parent_placement
 from freecad_volfrep.gui.draw import drawing
-from freecad_volfrep.gui.draw.coloured_struts import coloured_struts, colours_of, legend
+from freecad_volfrep.gui.draw.coloured_struts import (
+    coloured_struts,
+    colours_of,
+    legend,
+    legend_of_names,
+    row_colours,
+)
 from freecad_volfrep.translation import marked, translate
 from volfrep.sizing.strut_state import QUANTITIES, drawn_factor, value_range
 from volfrep.spatial.nearest_struts import NearestStrut
@@ -23,6 +29,8 @@ if TYPE_CHECKING:
 
 #: Name of what hangs in the view's scene.
 NODE = "VolfrepStrutResults"
+#: The quantity whose values are rows of names.
+GOVERNING = "governing"
 #: Colour of the solid's edges.
 OUTLINE = (0.75, 0.75, 0.75)
 #: What struts may be coloured by, marked for translation: `volfrep.sizing.strut_state.QUANTITIES`.
@@ -32,6 +40,7 @@ QUANTITY_NAMES = marked(
     "Stress (von Mises), MPa",
     "Share of the buckling load",
     "Displacement, mm",
+    "Governing limit",
 )
 
 
@@ -42,20 +51,29 @@ class StrutColours:
         obj: the infill.
         states: its struts in each load case.
         printed: title of the table by which they are as printed; empty for as drawn.
+        limits: what governs them; empty where they were not sized.
     """
 
     is_of_mesh = True
     why = ""
 
     def __init__(
-        self, obj: App.DocumentObject, states: Sequence[StrutState], printed: str = ""
+        self,
+        obj: App.DocumentObject,
+        states: Sequence[StrutState],
+        printed: str = "",
+        limits: tuple[str, ...] = (),
     ) -> None:
         from pivy import coin
 
-        self.printed = printed
+        self.printed, self._limits = printed, limits
         self._obj, self._states = obj, tuple(states)
         self.cases = tuple(state.name for state in states)
-        self.quantities = {n: translate("VolfrepColours", text) for n, text in QUANTITIES.items()}
+        self.quantities = {
+            name: translate("VolfrepColours", text)
+            for name, text in QUANTITIES.items()
+            if name != GOVERNING or limits
+        }
         self.quantity = "stress"
         self._was_visible = {
             shown: shown.ViewObject.Visibility for shown in (obj, obj.Base) if shown is not None
@@ -78,8 +96,15 @@ class StrutColours:
         return str(self.quantities[self.quantity])
 
     @property
-    def range(self) -> tuple[float, float]:
-        """Of the scale, one for all load cases."""
+    def names(self) -> tuple[str, ...]:
+        """What the values are rows of; empty for a number."""
+        return self._limits if self.quantity == GOVERNING else ()
+
+    @property
+    def range(self) -> tuple[float, float] | None:
+        """Of the scale, one for all load cases; None where there is none."""
+        if self.names:
+            return None
         return self._ends.get(self.quantity) or value_range(self._states, self.quantity)
 
     def choose(self, quantity: str) -> None:
@@ -130,16 +155,19 @@ class StrutColours:
 
     def _draw(self) -> None:
         self._root.removeAllChildren()
-        low, high = self.range
         values = self._state.values(self.quantity).ravel()
+        if self.range is None:
+            colours, told = row_colours(values), legend_of_names(self.title, self.names)
+        else:
+            colours, told = colours_of(values, *self.range), legend(self.title, *self.range)
         turn = drawing.transform(parent_placement(self._obj))
         struts = coloured_struts(
             self._places[:, 0],
             self._places[:, 1],
             self._state.radii,
-            colours_of(values, low, high).reshape(-1, 2, 3),
+            colours.reshape(-1, 2, 3),
             preferences.read(preferences.MOST_PRISMS),
         )
         self._shapes = [turn, struts]
         self._root.addChild(drawing.separate(turn, drawing.unpickable(), struts, self._outline))
-        self._root.addChild(legend(self.title, low, high))
+        self._root.addChild(told)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import FreeCAD as App
@@ -27,6 +28,8 @@ COLOURS = np.array(
 )  # fmt: skip
 #: Of the legend, in units of the view's height: place, size.
 LEFT, BOTTOM, WIDTH, HEIGHT = 0.03, 0.28, 0.018, 0.44
+#: Of names there are at most about so many.
+MOST_LINES = 12
 #: Its letters, which are of the system's own font, and its numbers.
 FONT, LETTERS, TICKS, DIGITS = "Sans", 13, 5, 3
 #: The name of what colours them.
@@ -45,6 +48,13 @@ def colours_of(values: NDArray[np.float64], low: float, high: float) -> NDArray[
     return np.stack([np.interp(share, places, COLOURS[:, k]) for k in range(3)], axis=1).astype(
         np.float32
     )
+
+
+def row_colours(rows: NDArray[np.float64]) -> NDArray[np.float32]:
+    """(n, 3) red, green and blue from 0 to 1, of (n,) rows of names."""
+    from volfrep.sizing.limit_colours import limit_colours
+
+    return limit_colours(rows).astype(np.float32)
 
 
 def coloured_struts(
@@ -113,13 +123,35 @@ def legend(title: str, low: float, high: float) -> Any:
     strip = coin.SoTriangleStripSet()
     strip.numVertices.setValue(2 * steps)
     bar = drawing.separate(binding, look, coordinates, strip)
-    root = coin.SoAnnotation()
-    for part in (drawing.unpickable(), _flat_camera(), drawing.flat_light(), bar):
-        root.addChild(part)
+    root = _flat(bar)
     # Of a constant there is one number to tell.
     for share in np.linspace(0.0, 1.0, TICKS) if high > low else (0.5,):
         place = (LEFT + 1.5 * WIDTH, BOTTOM + share * HEIGHT - 0.008, 0.0)
         root.addChild(_text(figure(low + share * (high - low), DIGITS), place))
+    root.addChild(_text(title, (LEFT, BOTTOM + HEIGHT + 0.03, 0.0)))
+    return root
+
+
+def legend_of_names(title: str, names: Sequence[str]) -> Any:
+    """A field of colour and a text for each name, the first on top, at the left of the view."""
+    from pivy import coin
+
+    line = HEIGHT / MOST_LINES
+    bottom = BOTTOM + HEIGHT - line * np.arange(1, len(names) + 1)
+    points = np.zeros((len(names), 4, 3), np.float32)
+    points[:, :, 0] = LEFT + WIDTH * np.array([0, 1, 1, 0])
+    points[:, :, 1] = bottom[:, None] + 0.7 * line * np.array([0, 0, 1, 1])
+    coordinates = coin.SoCoordinate3()
+    coordinates.point.setValues(0, 4 * len(names), points.reshape(-1, 3))
+    look = coin.SoMaterial()
+    look.diffuseColor.setValues(0, len(names), row_colours(np.arange(len(names))))
+    binding = coin.SoMaterialBinding()
+    binding.value = coin.SoMaterialBinding.PER_FACE
+    fields = coin.SoFaceSet()
+    fields.numVertices.setValues(0, len(names), [4] * len(names))
+    root = _flat(drawing.separate(binding, look, coordinates, fields))
+    for name, height in zip(names, bottom.tolist(), strict=True):
+        root.addChild(_text(name, (LEFT + 1.5 * WIDTH, height + 0.15 * line, 0.0)))
     root.addChild(_text(title, (LEFT, BOTTOM + HEIGHT + 0.03, 0.0)))
     return root
 
@@ -176,23 +208,23 @@ def scale_bar(view: Any) -> Any:
     style.lineWidth = LINE_WIDTH
     ink = coin.SoBaseColor()
     ink.setName(INK)
-    root = coin.SoAnnotation()
-    letters = _text(f"{figure(length)} mm", (x[0], y + 2.0 * BAR_ENDS, 0.0))
-    drawn = drawing.separate(ink, style, coordinates, line)
-    for part in (drawing.unpickable(), _flat_camera(), drawing.flat_light(), drawn, letters):
-        root.addChild(part)
+    root = _flat(drawing.separate(ink, style, coordinates, line))
+    root.addChild(_text(f"{figure(length)} mm", (x[0], y + 2.0 * BAR_ENDS, 0.0)))
     return root
 
 
-def _flat_camera() -> Any:
-    """What draws in shares of the view, whatever its own camera does."""
+def _flat(drawn: Any) -> Any:
+    """What is drawn before all else, in shares of the view, whatever its own camera does."""
     from pivy import coin
 
+    root = coin.SoAnnotation()
     camera = coin.SoOrthographicCamera()
     camera.viewportMapping = coin.SoCamera.LEAVE_ALONE
     camera.position, camera.height = (0.5, 0.5, 1.0), 1.0
     camera.nearDistance, camera.farDistance = 0.5, 2.0
-    return camera
+    for part in (drawing.unpickable(), camera, drawing.flat_light(), drawn):
+        root.addChild(part)
+    return root
 
 
 def _text(text: str, place: tuple[float, float, float]) -> Any:

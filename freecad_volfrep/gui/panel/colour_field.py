@@ -27,15 +27,15 @@ class ColourChoice(QtWidgets.QComboBox):
     """
 
     def __init__(self, view: Any, changed: Callable[[], None]) -> None:
-        from volfrep.jobs.figures.point_values import OF_LOADS
+        from volfrep.jobs.figures.point_values import GOVERNING, OF_LOADS
 
         super().__init__()
-        self._view, self._changed, self._of_loads = view, changed, OF_LOADS
+        self._view, self._changed, self._of_loads = view, changed, (*OF_LOADS, GOVERNING[0])
         self.setObjectName("ColourBy")
         self.setAccessibleName(translate("VolfrepColours", "Colour by"))
         narrow(self)
         for name in view.getEnumerationsOfProperty("ColourBy"):
-            if name in (*PREVIEWED, *OF_LOADS) or name == view.ColourBy:
+            if name in (*PREVIEWED, *self._of_loads) or name == view.ColourBy:
                 self.addItem(translate("VolfrepColours", name), name)
         self.setCurrentIndex(self.findData(view.ColourBy))
         self.look()

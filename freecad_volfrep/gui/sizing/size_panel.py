@@ -217,7 +217,7 @@ class SizePanel:
         if not self._find():
             return False
         assert self._outcome is not None
-        open_struts(self._obj, self._outcome.states, self._outcome.printed)
+        open_struts(self._obj, self._outcome.states, self._outcome.printed, self._outcome.limits)
         return True
 
     def _find(self) -> bool:

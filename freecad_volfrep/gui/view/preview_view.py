@@ -10,8 +10,9 @@ import FreeCADGui as Gui
 import numpy as np
 
 from freecad_volfrep import preferences
+from freecad_volfrep.features.sizing.sized_states import limit_names
 from freecad_volfrep.gui.draw import drawing
-from freecad_volfrep.gui.draw.coloured_struts import coloured_struts, colours_of
+from freecad_volfrep.gui.draw.coloured_struts import coloured_struts, colours_of, row_colours
 from freecad_volfrep.gui.draw.legend import Legend
 from freecad_volfrep.gui.draw.prisms import CREASE_ANGLE, prisms
 from volfrep.util.errors import VolfrepError
@@ -88,8 +89,11 @@ class PreviewView:
             low = 0.0
         if self._view.ColourFrom != self._view.ColourTo:
             low, high = self._view.ColourFrom, self._view.ColourTo
-        self._legend.show(self._obj, quantity, low, high)
-        return ColouredStruts(self._struts, shown.preview, values, low, high)
+        names = limit_names(self._obj, quantity)
+        self._legend.show(self._obj, quantity, low, high, names)
+        flat = values.ravel()
+        colours = row_colours(flat) if names else colours_of(flat, low, high)
+        return ColouredStruts(self._struts, shown.preview, colours.reshape(-1, 2, 3))
 
     @property
     def bounds(self) -> np.ndarray:
@@ -168,15 +172,10 @@ class ColouredStruts:
     Args:
         node: an empty node of the scene.
         shown: the struts.
-        values: (k, 2) at their ends.
-        low: where the scale of colours begins.
-        high: where it ends.
+        colours: (k, 2, 3) at their ends.
     """
 
-    def __init__(
-        self, node: Any, shown: Preview, values: np.ndarray, low: float, high: float
-    ) -> None:
-        colours = colours_of(values.ravel(), low, high).reshape(-1, 2, 3)
+    def __init__(self, node: Any, shown: Preview, colours: np.ndarray) -> None:
         most = preferences.read(preferences.MOST_PRISMS)
         node.addChild(coloured_struts(shown.start, shown.end, shown.radii, colours, most))
 
@@ -187,7 +186,12 @@ class ColouredStruts:
 def preview_values(obj: App.DocumentObject, shown: Shown, quantity: str) -> np.ndarray | None:
     """(k, 2) a quantity at the ends of a preview's struts; None where it is not known of them."""
     from freecad_volfrep.features.sizing.sized_states import sized_states
-    from volfrep.jobs.figures.point_values import OF_LOADS, values_in_space, values_on_struts
+    from volfrep.jobs.figures.point_values import (
+        GOVERNING,
+        OF_LOADS,
+        values_in_space,
+        values_on_struts,
+    )
 
     struts = shown.preview
     if quantity == "Radius":
@@ -199,8 +203,10 @@ def preview_values(obj: App.DocumentObject, shown: Shown, quantity: str) -> np.n
             np.linalg.norm(along, axis=1) * np.linalg.norm(up), 1e-12
         )
         return np.repeat(np.degrees(np.arcsin(np.minimum(rise, 1.0)))[:, None], 2, axis=1)
-    if quantity in OF_LOADS and shown.is_sized:
+    if quantity in (*OF_LOADS, GOVERNING[0]) and shown.is_sized:
         ends, states = sized_states(obj)
+        if quantity not in states:
+            return None  # kept by an earlier release
         return values_on_struts(struts.start, struts.end, ends, states[quantity])
     if quantity not in ("Cell size", "Field"):
         return None

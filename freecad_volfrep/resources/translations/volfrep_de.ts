@@ -2014,6 +2014,14 @@
       <translation>Vom kleinsten bis zum größten der Werte</translation>
     </message>
     <message>
+      <source>Governing limit</source>
+      <translation>Maßgebende Grenze</translation>
+    </message>
+    <message>
+      <source>Governing limit of the skin</source>
+      <translation>Maßgebende Grenze der Haut</translation>
+    </message>
+    <message>
       <source>Load case</source>
       <translation>Lastfall</translation>
     </message>
@@ -2084,6 +2092,14 @@
     <message>
       <source>The lattice is not the one that was sized any more: size it again.</source>
       <translation>Das Gitter ist nicht mehr das, das dimensioniert wurde: dimensionieren Sie es noch einmal.</translation>
+    </message>
+    <message>
+      <source>The skin was not sized: Loads and Sizing does that with a thinnest skin.</source>
+      <translation>Die Haut wurde nicht ausgelegt: Lasten und Auslegung tut das mit einer dünnsten Haut.</translation>
+    </message>
+    <message>
+      <source>What governs is not kept in the document: Loads and Sizing puts it there.</source>
+      <translation>Im Dokument steht nicht, was maßgebend ist: Lasten und Auslegung legt es dort ab.</translation>
     </message>
     <message>
       <source>from</source>
@@ -4541,8 +4557,32 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Frequenz</translation>
     </message>
     <message>
+      <source>largest radius</source>
+      <translation>größter Radius</translation>
+    </message>
+    <message>
+      <source>largest thickness</source>
+      <translation>größte Dicke</translation>
+    </message>
+    <message>
+      <source>no limit</source>
+      <translation>keine Grenze</translation>
+    </message>
+    <message>
       <source>skin stress</source>
       <translation>Spannung der Haut</translation>
+    </message>
+    <message>
+      <source>smallest radius</source>
+      <translation>kleinster Radius</translation>
+    </message>
+    <message>
+      <source>smallest thickness</source>
+      <translation>kleinste Dicke</translation>
+    </message>
+    <message>
+      <source>stiffness</source>
+      <translation>Steifigkeit</translation>
     </message>
     <message>
       <source>stress</source>

@@ -2014,6 +2014,14 @@
       <translation>Dal più piccolo al più grande dei valori</translation>
     </message>
     <message>
+      <source>Governing limit</source>
+      <translation>Limite determinante</translation>
+    </message>
+    <message>
+      <source>Governing limit of the skin</source>
+      <translation>Limite determinante del guscio</translation>
+    </message>
+    <message>
       <source>Load case</source>
       <translation>Caso di carico</translation>
     </message>
@@ -2084,6 +2092,14 @@
     <message>
       <source>The lattice is not the one that was sized any more: size it again.</source>
       <translation>Il reticolo non è più quello dimensionato: dimensionarlo di nuovo.</translation>
+    </message>
+    <message>
+      <source>The skin was not sized: Loads and Sizing does that with a thinnest skin.</source>
+      <translation>Il guscio non è stato dimensionato: Carichi e dimensionamento lo fa con un guscio minimo.</translation>
+    </message>
+    <message>
+      <source>What governs is not kept in the document: Loads and Sizing puts it there.</source>
+      <translation>Nel documento non è indicato il limite determinante: Carichi e dimensionamento ve lo scrive.</translation>
     </message>
     <message>
       <source>from</source>
@@ -4541,8 +4557,32 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>frequenza</translation>
     </message>
     <message>
+      <source>largest radius</source>
+      <translation>raggio massimo</translation>
+    </message>
+    <message>
+      <source>largest thickness</source>
+      <translation>spessore massimo</translation>
+    </message>
+    <message>
+      <source>no limit</source>
+      <translation>nessun limite</translation>
+    </message>
+    <message>
       <source>skin stress</source>
       <translation>tensione del guscio</translation>
+    </message>
+    <message>
+      <source>smallest radius</source>
+      <translation>raggio minimo</translation>
+    </message>
+    <message>
+      <source>smallest thickness</source>
+      <translation>spessore minimo</translation>
+    </message>
+    <message>
+      <source>stiffness</source>
+      <translation>rigidezza</translation>
     </message>
     <message>
       <source>stress</source>

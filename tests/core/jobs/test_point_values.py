@@ -90,11 +90,28 @@ def test_what_is_known_of_struts_is_known_along_them():
     assert (told.low, told.high) == (0.0, 70.0)
 
 
+def test_what_governs_is_that_of_the_nearest_strut_and_place_of_the_skin():
+    ends = np.array([[[0.0, 0, 0], [10, 0, 0]], [[0, 0, 0], [0, 10, 0]]])
+    rows, points = np.array([[2.0, 2.0], [1.0, 1.0]]), np.array([[5.0, 0.5, 0.0], [0.3, 5.0, 0.0]])
+    told = point_values(
+        SOLID, LatticeSpec(), "Governing limit", points, points, carried=(ends, rows)
+    )
+    assert told.values.tolist() == [2.0, 1.0]
+    places = np.array([[0.0, 8.0, 0.0], [9.0, 0.0, 0.0]])
+    told = point_values(
+        SOLID, LatticeSpec(), "Governing limit of the skin", points, points,
+        carried=(places, np.array([3.0, 0.0])),
+    )  # fmt: skip
+    assert told.values.tolist() == [0.0, 3.0]
+
+
 def test_what_there_is_not_is_said():
     points = SOLID.vertices
     with pytest.raises(VolfrepError, match="no quantity 'Colour'"):
         point_values(SOLID, LatticeSpec(), "Colour", points, points)
     with pytest.raises(VolfrepError, match="needs loads"):
         point_values(SOLID, LatticeSpec(), "Stress", points, points)
+    with pytest.raises(VolfrepError, match="of a sized part only"):
+        point_values(SOLID, LatticeSpec(), "Governing limit", points, points)
     with pytest.raises(VolfrepError, match="No field drives"):
         point_values(SOLID, LatticeSpec(), "Field", points, points)

@@ -33,7 +33,7 @@ def test_a_tube_lies_about_its_strut_and_faces_outwards() -> None:
 
 @pytest.mark.costly
 @pytest.mark.slow_but("stress")
-@pytest.mark.parametrize("colour", ["radius", "stress"])
+@pytest.mark.parametrize("colour", ["radius", "stress", "governing"])
 def test_a_design_is_drawn_in_colours_with_a_legend(tmp_path: Path, colour: str) -> None:
     pytest.importorskip("pyvista", reason="pictures need the optional package pyvista")
     from PIL import Image
@@ -46,9 +46,11 @@ def test_a_design_is_drawn_in_colours_with_a_legend(tmp_path: Path, colour: str)
     spec = LatticeSpec("BCC", cell_size=10, strut_radius=0.7, boundary="whole", activation="centre")
     made = size(solid, spec, loads, Goal(), most_steps=3, prove_it=False)
     file = tmp_path / "design.png"
+    governing = made.governing.rows, made.governing.told
     sizing_picture(
-        made.model, made.sized.analysis, file, colour=colour, deformed=1.0, size=(400, 300)
-    )
+        made.model, made.sized.analysis, file, colour=colour, deformed=1.0, size=(400, 300),
+        governing=governing,
+    )  # fmt: skip
     picture = np.asarray(Image.open(file).convert("RGB")).astype(int)
     lively = np.ptp(picture, axis=2) > 80
     assert lively[:, :300].mean() > 0.01

@@ -100,6 +100,12 @@ def test_the_mass_asked_for_is_that_of_the_file():
     made = size(solid, spec, LoadCases(TITANIUM, (case,)), goal, most_steps=8, prove_it=False)
     split = made.report["masses_g"]
     assert split["struts"] + split["skin"] == pytest.approx(mass, rel=0.01)
+    told, governing = made.report["skin"]["governed_by"], made.skin_governing
+    assert [(row["what"], row["case"]) for row in told] == list(governing.names)
+    assert len(governing.rows) == len(made.spec.skin_field.points)
+    thin = governing.rows == governing.names.index(("smallest thickness", ""))
+    values = made.spec.skin_field.values
+    assert values[thin].mean() < 0.5 * values[~thin].mean()
     file = fill(solid, made.spec).mesh.volume * TITANIUM.density / 1e3
     assert file == pytest.approx(mass, rel=0.02)
 
@@ -126,7 +132,7 @@ def test_what_governs_a_pulled_tubes_skin_is_told_by_area():
     def governs(roots, **limits):
         radii = np.concatenate([first[: problem.skin.radii], roots])
         limits = Limits(**limits)
-        rows = governing_skin(problem, analyse(problem, radii, limits)[0], limits)
+        rows = governing_skin(problem, analyse(problem, radii, limits)[0], limits).of_skin()
         assert sum(row["share"] for row in rows) == pytest.approx(1.0)
         return {(row["what"], row["case"]): row["share"] for row in rows}
 

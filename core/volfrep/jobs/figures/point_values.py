@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from ...design.grading import Field
 from ...design.spec import LatticeSpec
@@ -36,10 +37,14 @@ QUANTITIES = {
     "Stress": "Stress (von Mises), MPa",
     "Buckling": "Share of the buckling load",
     "Displacement": "Displacement, mm",
+    "Governing limit": "Governing limit",
+    "Governing limit of the skin": "Governing limit of the skin",
     "Field": "Field of the radius",
 }
 #: Those that need loads: names of the attributes of a `StrutState`.
 OF_LOADS = {"Stress": "stress", "Buckling": "buckling", "Displacement": "displacement"}
+#: Those that are known of a sized part only: rows of names, for struts and for the skin.
+GOVERNING = "Governing limit", "Governing limit of the skin"
 
 
 class PointValues(NamedTuple):
@@ -83,7 +88,7 @@ def point_values(
         up: from the build plate, for overhangs.
         loads: for those of `OF_LOADS`.
         carried: in place of loads, what is known of struts: their ends, (m, 2, 3) mm, and the
-            values there, (m, 2).
+            values there, (m, 2); for the skin points, (m, 3), and (m,).
         printing: how struts come out that carry loads; None as they are drawn.
         progress: called with the fraction done and the stage; returning False cancels.
         cache: keeps the costly stages of the part.
@@ -102,6 +107,11 @@ def point_values(
         return _in_range(_skin(solid, spec, points))
     if quantity in ("Cell size", "Field"):
         return _in_range(values_in_space(solid, spec, quantity, points))
+    if quantity in GOVERNING and carried is None:
+        raise VolfrepError(f"'{quantity}' is known of a sized part only.")
+    if quantity == GOVERNING[1] and carried is not None:
+        places, rows = carried
+        return _in_range(rows[cKDTree(places).query(points)[1]])
     if not spec.kind.has_struts:
         raise VolfrepError(f"Walls have no struts to colour by '{quantity}'.")
     from ..infill import Infill

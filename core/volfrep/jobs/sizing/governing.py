@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What governs where: the limit and the load case that say how thick each strut is."""
+"""What governs where: the limit and the load case that say how thick struts and skin are."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...util.types import Floats, Ints
@@ -26,25 +27,52 @@ THIN_SKIN, THICK_SKIN = "smallest thickness", "largest thickness"
 
 @dataclass(frozen=True, eq=False)
 class Governing:
-    """What says how thick struts are.
+    """What says how thick struts, or the places of a skin, are.
 
     Attributes:
-        names: what there is: a limit, a bound, or `NOTHING`; and the load case, empty without one.
-        struts: (m,) of each strut, its row in `names`.
+        names: a limit, a bound, or `NOTHING`; and the load case, empty without one. The first
+            governs the most, and what governs nothing is left out.
+        much: (names,) how many struts, or mm2 of the skin, each of them governs.
+        rows: (m,) of each strut or place, its row in `names`.
     """
 
     names: tuple[tuple[str, str], ...]
-    struts: Ints
+    much: Floats
+    rows: Ints
 
-    def as_rows(self) -> list[dict[str, str | int]]:
-        """How many struts each of them governs, the most first; what governs none is left out."""
-        counts = np.bincount(self.struts, minlength=len(self.names))
-        order = np.argsort(-counts, kind="stable")
+    @property
+    def told(self) -> tuple[str, ...]:
+        """The names with their load cases."""
+        return tuple(f"{what}{', ' * bool(case)}{case}" for what, case in self.names)
+
+    def of_struts(self) -> list[dict[str, Any]]:
+        """The rows of a report on struts."""
         return [
-            {"what": self.names[k][0], "case": self.names[k][1], "struts": int(counts[k])}
-            for k in order.tolist()
-            if counts[k]
+            {"what": what, "case": case, "struts": int(count)}
+            for (what, case), count in zip(self.names, self.much, strict=True)
         ]
+
+    def of_skin(self) -> list[dict[str, Any]]:
+        """The rows of a report on a skin."""
+        whole = float(self.much.sum())
+        return [
+            {"what": what, "case": case, "share": float(area) / whole}
+            for (what, case), area in zip(self.names, self.much, strict=True)
+        ]
+
+    def at(self, places: Floats, points: Floats) -> Ints:
+        """(k,) the row at points (k, 3): that of the nearest of the places (m, 3)."""
+        return np.asarray(self.rows[cKDTree(places).query(points)[1]])
+
+
+def _by_size(names: list[tuple[str, str]], rows: Ints, sizes: Floats) -> Governing:
+    """What governs struts or places of so many mm2, or 1, the most first."""
+    much: Floats = np.bincount(rows, sizes, len(names)).astype(np.float64)
+    order = np.argsort(-much, kind="stable")
+    order = order[np.isin(order, rows)]
+    place = np.zeros(len(names), np.int64)
+    place[order] = np.arange(len(order))
+    return Governing(tuple(names[k] for k in order.tolist()), much[order], place[rows])
 
 
 def governing(problem: Problem, design: Analysis, limits: Limits) -> Governing:
@@ -90,11 +118,12 @@ def governing(problem: Problem, design: Analysis, limits: Limits) -> Governing:
     thick = problem.radii.of_struts(design.radii).argmax(axis=1)
     ends = problem.radii.ends.tocsr()[2 * np.arange(len(thick)) + thick]
     node = np.asarray(ends.argmax(axis=1)).ravel()
-    return Governing(tuple(names), np.where(most >= _NEAR, own, of_node[node]))
+    rows = np.where(most >= _NEAR, own, of_node[node])
+    return _by_size(names, rows, np.ones(len(rows)))
 
 
-def governing_skin(problem: Problem, design: Analysis, limits: Limits) -> list[dict[str, Any]]:
-    """What governs how much of a sized skin's area, the most first.
+def governing_skin(problem: Problem, design: Analysis, limits: Limits) -> Governing:
+    """What governs a sized skin at each of its control points.
 
     Where its thickness is chosen it is as the shells there ask for that are its own: their stress
     where nine tenths of its limit are used; else a bound, or the limit that all share.
@@ -120,12 +149,7 @@ def governing_skin(problem: Problem, design: Analysis, limits: Limits) -> list[d
         near = uses.max(axis=1) >= _NEAR
         governs[near] = len(names) + uses[near].argmax(axis=1)
         names += [("skin stress", case) for case in cases]
-    shares = np.bincount(governs, skin.areas, len(names)) / skin.areas.sum()
-    return [
-        {"what": names[k][0], "case": names[k][1], "share": float(shares[k])}
-        for k in np.argsort(-shares, kind="stable").tolist()
-        if shares[k] > 0.0
-    ]
+    return _by_size(names, governs, skin.areas)
 
 
 def _shared(design: Analysis, limits: Limits, cases: list[str]) -> tuple[str, str]:

@@ -18,7 +18,7 @@ from ...loads.load_cases import LoadCases, refuse_heat, with_weights
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.sizing_report import sizing_report
 from ...sizing.analysis import Analysis, Limits, Problem, analyse
-from ...sizing.discrete_radii import of_list
+from ...sizing.discrete_radii import list_figures, of_list
 from ...sizing.model import SizingModel
 from ...sizing.optimise import HOLDS, Sized, Step, Watch, lightest, stiffest, thicken, uniform
 from ...sizing.proof import Proved, correct_problem, prove_design
@@ -33,7 +33,7 @@ from ..infill import Infill
 from ..kinds import lattice_kind
 from ..targets import solve_target
 from .goal import Goal
-from .governing import governing, governing_skin
+from .governing import Governing, governing
 from .notes import (
     free_motions,
     hardly_beams,
@@ -52,6 +52,7 @@ from .printed import Printing, printed_figures, printed_note
 from .skin_search import (
     SkinDesign,
     design_skin,
+    governing_thickness,
     lighter,
     skin_peaks,
     thickness_there,
@@ -91,6 +92,9 @@ class SizedPart(Shown):
         before: the lattice of one radius with the same volume.
         even: the lattice of one radius that holds the same limits, and whether it does; None
             without limits.
+        governing: which limit, in which load case, says how thick each strut is.
+        skin_governing: which says how thick a sized skin is at each point of its thickness; None
+            where it was not sized.
         report: the figures.
     """
 
@@ -101,6 +105,8 @@ class SizedPart(Shown):
     sized: Sized
     before: Analysis
     even: tuple[Analysis, bool] | None
+    governing: Governing
+    skin_governing: Governing | None
     report: dict[str, Any] = field(repr=False)
 
     def rows(self) -> list[tuple[str, str]]:
@@ -111,8 +117,8 @@ class SizedPart(Shown):
 
     @property
     def states(self) -> tuple[StrutState, ...]:
-        """The design's struts in every load case: radius, stress, buckling use, displacement."""
-        return strut_states(self.model.problem, self.sized.analysis)
+        """The design's struts in every load case."""
+        return strut_states(self.model.problem, self.sized.analysis, self.governing.rows)
 
 
 def size(
@@ -470,12 +476,13 @@ def _record(
         unthinned=None if taken is None else (search.whole.analysis, taken.struts),
     )  # fmt: skip
     governed = governing(search.model.problem, search.sized.analysis, task.goal.limits)
-    report["governed_by"] = governed.as_rows()
+    report["governed_by"] = governed.of_struts()
     report["limits"] = task.goal.limits.as_dict()
     if taken is not None:
         report["removed"]["places"] = taken.places
     if search.any_radii is not None:
-        report["radius_list"] = _list_figures(task.goal.radius_list, search)
+        wanted = np.array(task.goal.radius_list)
+        report["radius_list"] = list_figures(wanted, search.any_radii, search.sized.analysis)
     if task.goal.printing is not None:
         report["as_printed"] = printed_figures(
             task.goal.printing,
@@ -484,17 +491,15 @@ def _record(
             task.loads.material.density,
         )
         report["notes"].append(printed_note(report["as_printed"]))
+    skin = None
     if task.skin is not None:
+        skin = governing_thickness(task.skin, task.goal.limits)
         _with_skin(report, skin_peaks(search.model, search.sized.analysis), task, search.model)
         report["skin"] = {
             **thickness_there(search.model, task.infill.domain.mesh),
             "chosen_at": len(task.skin.sized.analysis.radii) - len(task.skin.radii),
             "even": task.skin.even,
-            "governed_by": governing_skin(
-                task.skin.problem,
-                task.skin.sized.analysis,
-                replace(task.goal.limits, skin_stress=task.skin.limit),
-            ),
+            "governed_by": skin.of_skin(),
             "solid": solid_places(
                 search.model, task.infill.solid, task.infill.domain.mesh,
                 task.loads.material.density, task.skin.solid,
@@ -503,7 +508,10 @@ def _record(
         report["notes"] += filled_notes(report["skin"]["solid"], task.skin.thickest)
         solid = sum(place["mass_g"] for place in report["skin"]["solid"])
         report["masses_g"]["solid"] = solid
-    return SizedPart(graded, points, radii, search.model, search.sized, before, search.even, report)
+    return SizedPart(
+        graded, points, radii, search.model, search.sized, before, search.even, governed, skin,
+        report,
+    )  # fmt: skip
 
 
 def _with_skin(report: dict[str, Any], peaks: list[float], task: _Task, model: SizingModel) -> None:
@@ -516,20 +524,6 @@ def _with_skin(report: dict[str, Any], peaks: list[float], task: _Task, model: S
         report["uses"] = {**report["uses"], **use}
         last["uses"] = {**last["uses"], **use}
         report["limits"]["skin stress"] = limit
-
-
-def _list_figures(radii: tuple[float, ...], search: _Search) -> dict[str, Any]:
-    """How many nodes have each radius of the list, and what the list costs."""
-    free, final = search.any_radii, search.sized.analysis
-    assert free is not None
-    row = np.searchsorted(np.array(radii) + 0.5 * RADIUS_STEP, final.radii)
-    return {
-        "radii_mm": list(radii),
-        "nodes": np.bincount(row, minlength=len(radii)).tolist(),
-        "any_radii_strut_volume_mm3": free.volume,
-        "volume_over_any_radii": final.volume / free.volume,
-        "compliance_over_any_radii": (final.compliance / free.compliance).tolist(),
-    }
 
 
 def solve_struts(

@@ -34,6 +34,7 @@ from ...util.progress import Monitor
 from ...util.types import Floats
 from ..infill import Infill
 from .goal import Goal
+from .governing import Governing, governing_skin
 from .part_model import given_radii, part_model, thickness_of_skin
 from .solid_places import NOWHERE, SolidPlaces, more_solid
 
@@ -276,6 +277,16 @@ def skin_peaks(model: SizingModel, analysis: Analysis) -> list[float]:
     assert skin is not None
     stress = skin.stresses(analysis.displacements[model.frame_nodes :])
     return [most_but_peaks(row, skin.shells.area) for row in stress.T]
+
+
+def governing_thickness(design: SkinDesign, limits: Limits) -> Governing:
+    """What governs a design's skin, held to limits, at the points of its thickness."""
+    limits = replace(limits, skin_stress=design.limit)
+    governed = governing_skin(design.problem, design.sized.analysis, limits)
+    skin, field = design.problem.skin, design.spec.skin_field
+    assert skin is not None
+    assert isinstance(field, PointField)
+    return replace(governed, rows=governed.at(skin.points, field.points))
 
 
 def lighter(

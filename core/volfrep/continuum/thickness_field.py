@@ -117,10 +117,12 @@ class FieldFound:
     Attributes:
         thickness: (e,) mm.
         steps: all on the way.
+        thicker_helps: False where a limit is not held, and thicker all over goes further beyond it.
     """
 
     thickness: Floats
     steps: tuple[FieldStep, ...]
+    thicker_helps: bool = True
 
 
 def evened(points: Floats, reach: float) -> Any:
@@ -150,6 +152,19 @@ class _Solved:
     use: Floats
     work: float
     solver: Multigrid
+
+
+class _Best:
+    """The lightest design that holds its limits; where none does, that whose are used least."""
+
+    def __init__(self, chosen: Floats) -> None:
+        self.chosen, self._rank = chosen, (np.inf, np.inf)
+
+    def take(self, found: FieldStep, chosen: Floats) -> None:
+        """Keep a design if it is better than what is kept."""
+        rank = max(found.most_used, HOLDS), found.volume
+        if rank < self._rank:
+            self.chosen, self._rank = chosen, rank
 
 
 class _Search:
@@ -346,7 +361,7 @@ def lightest_field(
         raise VolfrepError("Least mass needs a limit: a safety against yield, or a displacement.")
     search = _Search(problem, limits)
     chosen = np.full(len(problem.middles), start)
-    kept: tuple[float, Floats] | None = None
+    best = _Best(chosen)
     least, nearest, since, move = np.inf, np.inf, 0, MOVE
     for number in range(most_steps):
         problem.monitor.tick(number / most_steps)
@@ -356,8 +371,7 @@ def lightest_field(
         found = search.step(model, solved)
         # What it would weigh when brought to its limits by one factor for all.
         reached = found.volume * found.most_used ** (1.0 / POWER)
-        if found.most_used <= HOLDS and (kept is None or found.volume < kept[0]):
-            kept = found.volume, chosen
+        best.take(found, chosen)
         over = max(found.most_used, 1.0)
         better = reached < least * (1.0 - BETTER) or over < nearest * (1.0 - BETTER)
         since = 0 if better else since + 1
@@ -370,31 +384,31 @@ def lightest_field(
         low = np.maximum(problem.thinnest, chosen / move)
         high = np.minimum(problem.thickest, chosen * move)
         chosen = cheapest(chosen, np.maximum(cost, 1e-12), uses, changes, low, high)
-    final = _to_limits(search, chosen, kept)
-    return FieldFound(search.even @ final, tuple(search.steps))
+    helps = _to_limits(search, chosen, best)
+    return FieldFound(search.even @ best.chosen, tuple(search.steps), helps)
 
 
-def _to_limits(search: _Search, chosen: Floats, kept: tuple[float, Floats] | None) -> Floats:
-    """The lightest that holds of what was kept and the last design times factors.
+def _to_limits(search: _Search, chosen: Floats, best: _Best) -> bool:
+    """Bring the last design to its limits by one factor, for the best to take; see `FieldFound`.
 
-    Where none holds, the one whose limits are used least.
+    Returns:
+        Whether thicker all over helps, where no design on the way holds.
     """
     problem = search.problem
     low = high = None
-    log, best = 0.0, (np.inf, chosen)
+    log, before = 0.0, np.inf
     for _ in range(SCALINGS):
         scaled = np.clip(chosen * np.exp(log), problem.thinnest, problem.thickest)
         model = problem.model_of(search.even @ scaled)
         found = search.step(model, search.solve(model))
+        best.take(found, scaled)
         if found.most_used <= HOLDS:
             high = log, found.most_used
-            if kept is None or found.volume < kept[0]:
-                kept = found.volume, scaled
         else:
             low = log, found.most_used
-        if high is None and found.most_used > best[0]:
-            break  # Thicker all over does not help: what is stiffer takes more.
-        best = min(best, (found.most_used, scaled), key=lambda one: one[0])
+        if high is None and found.most_used > before:
+            return False  # What is stiffer takes more.
+        before = min(before, found.most_used)
         full = bool((scaled >= problem.thickest * (1.0 - 1e-9)).all())
         if 1.0 - 2e-3 <= found.most_used <= HOLDS or (full and high is None):
             break
@@ -406,4 +420,4 @@ def _to_limits(search: _Search, chosen: Floats, kept: tuple[float, Floats] | Non
             log = low[0] + share * (high[0] - low[0])
             if high[0] - low[0] < 1e-4:
                 break
-    return best[1] if kept is None else kept[1]
+    return True

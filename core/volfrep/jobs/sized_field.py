@@ -157,7 +157,7 @@ def homogenise_sized(
         solid, graded, loads, element=element, frequencies=frequencies,
         load_factors=load_factors, monitor=monitor, cache=cache,
     )  # fmt: skip
-    made.report["notes"] += _check_limits(told, made.report["cases"])
+    made.report["notes"] += _check_limits(told, made, goal)
     made.report["field"] = told
     return made
 
@@ -284,32 +284,44 @@ def _told(
         "thinnest_mm": low, "thickest_mm": high, "mean_mm": float(values.values.mean()),
         "steps": [row(step) for step in found.steps],
         "work_over_first": min(step.work for step in found.steps),
+        "thicker_helps": found.thicker_helps,
     }  # fmt: skip
 
 
-def _check_limits(told: dict[str, Any], cases: list[dict[str, Any]]) -> list[str]:
+def _check_limits(told: dict[str, Any], made: HomogenisedPart, goal: FieldGoal) -> list[str]:
     """Add to what a search came to the uses of the sized part, solved anew; notes on it.
 
     Args:
         told: of `size_field`; ``uses`` and ``holds`` are set.
-        cases: of the report of the part.
+        made: the part.
+        goal: what was wanted.
     """
-    limits, uses = told["limits"], {}
-    if limits["lattice_use"] is not None:
-        most = max(case["lattice_use"] or 0.0 for case in cases)
-        uses["stress"] = most / limits["lattice_use"]
-    if limits["displacement_mm"] is not None:
-        most = max(case["displacement_mm"] for case in cases)
-        uses["displacement"] = most / limits["displacement_mm"]
+    cases, limits, uses = made.report["cases"], goal.limits, {}
+    if limits.use is not None:
+        case = max(cases, key=lambda one: one["lattice_use"] or 0.0)
+        uses["stress"] = (case["lattice_use"] or 0.0) / limits.use
+    if limits.displacement is not None:
+        uses["displacement"] = max(one["displacement_mm"] for one in cases) / limits.displacement
     told["uses"] = uses
     told["holds"] = max(uses.values(), default=0.0) <= HOLDS
     if told["holds"]:
         return []
     worst = max(uses, key=lambda name: uses[name])
-    return [
-        f"The limit of {worst} is not held: {uses[worst]:.0%} of it is used even so. Allow thicker "
-        "struts or walls, or a thicker skin where the load enters."
-    ]
+    what = "struts" if made.spec.kind.has_struts else "walls"
+    beyond = f"The limit of {worst} is not held: at best {uses[worst]:.1%} of it is used"
+    if worst == "stress" and not told["thicker_helps"]:
+        at = ", ".join(f"{value:.4g}" for value in case["lattice_use_at"])
+        if made.spec.with_skin:
+            return [
+                f"{beyond}, at ({at}) mm, where the skin strains the lattice and thicker {what} "
+                "take no less stress: make the skin thicker."
+            ]
+        return [
+            f"{beyond}, at ({at}) mm, where thicker {what} take no less stress: move the supports "
+            "by less, or let the loads enter over larger faces."
+        ]
+    skin = ", or make the skin thicker" if made.spec.with_skin else ""
+    return [f"{beyond}, and what governs is how thick {what} may be: allow thicker ones{skin}."]
 
 
 def write_field(spec: LatticeSpec, path: str | os.PathLike[str]) -> None:

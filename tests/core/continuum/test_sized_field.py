@@ -127,6 +127,26 @@ def test_the_lightest_beam_holds_its_limits_anew_and_uses_them():
 
 
 @pytest.mark.costly
+def test_under_a_skin_that_governs_the_best_design_is_kept_and_a_thicker_skin_holds():
+    solid, loads, skinned = block(60, 20, 20), bent(60), replace(OCTET, shell=1)
+    case = homogenise_part(solid, skinned, loads, element=5).report["cases"][0]
+    goal = FieldGoal(FieldLimits(0.65 * case["lattice_use"]))
+    made = homogenise_sized(solid, skinned, loads, goal, element=5)
+    told = made.report["field"]
+    uses = [step["uses"]["stress"] for step in told["steps"]]
+    assert min(uses) > 1.2
+    assert not told["holds"]
+    assert told["uses"]["stress"] == pytest.approx(min(uses), rel=5e-4)
+    assert "make the skin thicker." in made.report["notes"][-1]
+    # One thickness all over, the thickest, is no better; a thicker skin is what holds.
+    thick = replace(skinned, strut_radius=1.4)
+    most = homogenise_part(solid, thick, loads, element=5).report["cases"][0]["lattice_use"]
+    assert most > min(uses) * goal.limits.use
+    made = homogenise_sized(solid, replace(skinned, shell=2), loads, goal, element=5)
+    assert made.report["field"]["holds"]
+
+
+@pytest.mark.costly
 def test_densities_of_sized_walls_are_what_slicers_bands_follow():
     """Closed form: area of the gyroid, 3.0915 in a cell of 1, times the thickness, less folds."""
     ends = np.array([[0.0, 0, 0], [10, 0, 0]])

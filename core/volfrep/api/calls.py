@@ -122,7 +122,7 @@ def fill(
     cache = _cache(cache)
     check_kind("executor", executor, (Executor, type(None)), "an Executor of concurrent.futures")
     with shown(progress) as callback:
-        solid, wanted = _asked(part, unit, callback, spec, dict(parameters), material)
+        solid, wanted = _read_call(part, unit, callback, spec, dict(parameters), material)
         notes = []
         if compensate is not None:
             from ..design.as_printed import find_printed_table
@@ -139,10 +139,10 @@ def fill(
 
         limits = limits_of(service, max_triangles, max_size)
         made, kept = fill_within(solid, wanted, limits, find_form("part.stl"), make)
-        return Part(_noted(made.result, (*notes, *kept)), made.spec, solid, cache, made)
+        return Part(_add_notes(made.result, (*notes, *kept)), made.spec, solid, cache, made)
 
 
-def _noted(result: Result, notes: Sequence[str]) -> Result:
+def _add_notes(result: Result, notes: Sequence[str]) -> Result:
     """A result whose report warns of more."""
     if not notes:
         return result
@@ -244,7 +244,7 @@ def size(
     refuse_unknown(given, accepted() | set(GOALS))
     cache = _cache(cache)
     with shown(progress) as callback:
-        solid, wanted = _asked(part, unit, callback, spec, given, None)
+        solid, wanted = _read_call(part, unit, callback, spec, given, None)
         loads = _loads(loads, solid)
         wanted = dataclasses.replace(wanted, density=loads.material.density)
         goal = goal_of(
@@ -265,7 +265,7 @@ def size(
         filled, kept = fill_within(solid, made.spec, limits, find_form("part.stl"), fill)
         if prove == "file":
             prove_file(made, filled.result.mesh, loads, voxel=voxel, progress=callback)
-        return Part(_noted(filled.result, kept), filled.spec, solid, cache, filled, made)
+        return Part(_add_notes(filled.result, kept), filled.spec, solid, cache, filled, made)
 
 
 def _printing(table: str | None, scatter: float, up: Any) -> Printing | None:
@@ -453,7 +453,7 @@ def homogenise(
     refuse_unknown(given, accepted())
     cache = _cache(cache)
     with shown(progress) as callback:
-        solid, wanted = _asked(part, unit, callback, spec, given, None)
+        solid, wanted = _read_call(part, unit, callback, spec, given, None)
         cases = _loads(loads, solid)
         asked = {
             "safety": safety, "max_displacement": max_displacement,
@@ -542,7 +542,7 @@ def block(
             lambda spec: forecast_block(spec, counts).triangles,
             lambda spec: Block(solve_block_target(spec, counts, progress=callback), callback),
         )  # fmt: skip
-        return Part(_noted(made.result, kept), made.spec, None, StageCache(), made)
+        return Part(_add_notes(made.result, kept), made.spec, None, StageCache(), made)
 
 
 def mesh_network(
@@ -599,7 +599,7 @@ def mesh_network(
             wanted, limits, find_form("part.stl"), lambda _: 0.0,
             lambda spec: FreeGraph(spec, callback),
         )  # fmt: skip
-        return Part(_noted(made.result, kept), made.spec, None, StageCache(), made)
+        return Part(_add_notes(made.result, kept), made.spec, None, StageCache(), made)
 
 
 def slice_layers(
@@ -649,7 +649,7 @@ def slice_layers(
 
     check_path("folder", folder)
     with shown(progress) as callback:
-        solid, wanted = _asked(part, unit, callback, spec, dict(parameters), material)
+        solid, wanted = _read_call(part, unit, callback, spec, dict(parameters), material)
         return write_layers(
             solid,
             wanted,
@@ -735,7 +735,7 @@ def bare_surface(
 
     cache = _cache(cache)
     with shown(progress) as callback:
-        solid, wanted = _asked(part, unit, callback, spec, dict(parameters), None)
+        solid, wanted = _read_call(part, unit, callback, spec, dict(parameters), None)
         return made_of(solid, wanted, progress=callback, cache=cache)
 
 
@@ -829,7 +829,7 @@ def as_solid(
         return solid_of(part, unit, callback)
 
 
-def _asked(
+def _read_call(
     part: str | os.PathLike[str] | TriangleMesh | MeshLike | tuple[ArrayLike, ArrayLike],
     unit: str | None,
     progress: ProgressCallback | None,

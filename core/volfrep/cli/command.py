@@ -167,13 +167,13 @@ def run(arguments: Sequence[str]) -> int:
             return EXIT_BAD_INPUT
         print(
             f"volfrep: The engine failed with a {type(error).__name__} ({error}), which is a "
-            f"defect of VOLFREP: please report it with the traceback in '{_logged()}'.",
+            f"defect of VOLFREP: please report it with the traceback in '{_log_traceback()}'.",
             file=sys.stderr,
         )
         return EXIT_DEFECT
 
 
-def _logged() -> str:
+def _log_traceback() -> str:
     """The traceback of the running exception as a new file; its path."""
     with tempfile.NamedTemporaryFile(
         "w", prefix="volfrep-", suffix=".log", delete=False, encoding="utf-8"

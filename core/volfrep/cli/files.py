@@ -31,7 +31,7 @@ def check_files(
     from ..util.files import check_writable, note_input, refuse_input, same_file
 
     given = vars(options) | dict(named or {})
-    inputs, outputs = _given(given, INPUTS), _given(given, OUTPUTS)
+    inputs, outputs = _given_files(given, INPUTS), _given_files(given, OUTPUTS)
     named_or_file = (
         ("cell file", (".json",)), ("material file", (".toml", ".json")),
         ("table of printed diameters", (".csv",)),
@@ -76,7 +76,7 @@ def read_part(file: str, unit: str | None, cell_size: float) -> Solid:
     return solid
 
 
-def _given(options: Mapping[str, Any], table: dict[str, str]) -> dict[str, str]:
+def _given_files(options: Mapping[str, Any], table: dict[str, str]) -> dict[str, str]:
     """The files of the options that are there and were given, by what they are called."""
     given = ((called, options.get(name)) for name, called in table.items())
     return {called: str(Path(path)) for called, path in given if path is not None}

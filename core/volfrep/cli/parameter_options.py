@@ -91,14 +91,14 @@ def specified(options: argparse.Namespace, fixed: Mapping[str, object] | None = 
             raise VolfrepError(f"{options.spec}: {error}") from error
         values = made.merge_values(given, file)
     for name, value in values.items():
-        with_paths(name, value, _noted)
+        with_paths(name, value, _note_file)
     spec = made.specification(values, option_named)
     spec.kind.refuse_idle_cell(given)
     direction = BY_NAME["build_direction"]
     return Specified(spec, values, values.get(direction.name, direction.default))
 
 
-def _noted(file: str) -> str:
+def _note_file(file: str) -> str:
     """A file that the specification names, which is read for it and not written over."""
     if isinstance(file, str):
         note_input(file, "file of the specification")

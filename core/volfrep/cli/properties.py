@@ -69,7 +69,7 @@ def _print_library() -> None:
     print(f"{FORMULA:<25}a formula of your own, of x, y and z")
 
 
-def _expected(seconds: float) -> None:
+def _tell_expected(seconds: float) -> None:
     """Tell how long it will take, where somebody would wonder."""
     if seconds > LONG:
         from ..util.numbers import duration
@@ -97,7 +97,7 @@ def run_properties(options: argparse.Namespace) -> None:
         wall_offset=options.wall_offset,
         wall_formula=options.wall_formula,
         exact=True,
-        told=_expected,
+        told=_tell_expected,
         as_printed=options.as_printed,
         build_direction=options.build_direction,
         note=print,

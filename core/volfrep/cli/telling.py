@@ -51,7 +51,7 @@ def print_summary(
         ("relative density", f"{100 * report.relative_density:.2f} %"),
         ("mass", f"{report.mass_g:,.2f} g"),
         *_target(report),
-        *_removed(report),
+        *_removal_rows(report),
         ("time", f"{seconds:.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
         *(printing.rows() if printing is not None else ()),
     )
@@ -110,7 +110,7 @@ def _sizes(report: Report) -> list[tuple[str, str]]:
     ]  # fmt: skip
 
 
-def _removed(report: Report) -> list[tuple[str, str]]:
+def _removal_rows(report: Report) -> list[tuple[str, str]]:
     """What was taken away, and drain holes; nothing where there is nothing."""
     counts = (
         (report.struts_dangling_removed, "dangling struts"),

@@ -109,9 +109,9 @@ class BandedInfill:
         if self.grading != "formula":
             for name in ("start", "end"):
                 refuse_density(f"density at the {name}", getattr(self, name))
-            object.__setattr__(self, "_along", self._graded())
+            object.__setattr__(self, "_along", self._as_radius())
 
-    def _graded(self) -> RadiusGrading:
+    def _as_radius(self) -> RadiusGrading:
         """What a radius would follow with the same words; its values are percent here."""
         values = self.field
         if isinstance(values, (str, os.PathLike)):
@@ -151,10 +151,10 @@ class BandedInfill:
         """
         if self._along is not None:
             return self._along.radii(points, bounds, depth)
-        sampled = self._sampled(bounds, spacing)
+        sampled = self._sample(bounds, spacing)
         return sampled(points)
 
-    def _sampled(self, bounds: Floats, spacing: float) -> SampledField:
+    def _sample(self, bounds: Floats, spacing: float) -> SampledField:
         sampled = sample_function(self.formula, bounds, spacing, "formula")
         low, high = sampled.range
         for value in (low, high):

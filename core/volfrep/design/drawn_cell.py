@@ -92,7 +92,7 @@ def cell_from_lines(name: str, lines: Floats) -> DrawnCell:
             f"The line at ({x:g}, {y:g}, {z:g}) mm has no length and cannot be a strut: remove it."
         )
     ends = (lines - origin) / size
-    points = _settled(np.concatenate([ends.reshape(-1, 3), _crossings(ends)]))
+    points = _snap(np.concatenate([ends.reshape(-1, 3), _crossings(ends)]))
     nodes, index = np.unique(points, axis=0, return_inverse=True)
     own = index.reshape(-1)[: 2 * len(lines)].reshape(-1, 2)
     struts = {
@@ -125,7 +125,7 @@ def save_cell(cell: UnitCell, path: str | os.PathLike[str]) -> None:
         file.write(("{\n" + ",\n".join(lines) + "\n}\n").encode())
 
 
-def _settled(points: Floats) -> Floats:
+def _snap(points: Floats) -> Floats:
     """Coordinates that are the same but for rounding made equal, the cube's faces exact."""
     settled = np.empty_like(points)
     for axis in range(3):

@@ -152,7 +152,7 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
     while True:
         surface, moved = mend_surface(compact(mesh), monitor, tuple(places))
         surface = monitor.call(lambda: grade_facets(surface))  # noqa: B023
-        said, filled = _filled(program, surface, monitor)
+        said, filled = _run_gmsh(program, surface, monitor)
         place = _intersection(said)
         if filled is not None:
             break
@@ -169,7 +169,7 @@ def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrahedra
     return result
 
 
-def _filled(
+def _run_gmsh(
     program: str, surface: TriangleMesh, monitor: Monitor
 ) -> tuple[str, TetrahedralMesh | None]:
     """What Gmsh says of a closed surface, and the tetrahedra where it fills it."""

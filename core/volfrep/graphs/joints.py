@@ -58,7 +58,7 @@ def creases(halves: HalfStruts, balls: Floats) -> Floats:
     chunk = max(1, 2_000_000 // halves.rays.shape[1])
     for k in range(0, len(one), chunk):
         mine, theirs = one[k : k + chunk], two[k : k + chunk]
-        np.maximum.at(found, mine, _left_at(halves, mine, theirs))
+        np.maximum.at(found, mine, _ruling_exits(halves, mine, theirs))
     return found
 
 
@@ -74,7 +74,7 @@ def _meeting(node: Ints) -> tuple[Ints, Ints]:
     return one[one != two], two[one != two]
 
 
-def _left_at(halves: HalfStruts, mine: Ints, theirs: Ints) -> Floats:
+def _ruling_exits(halves: HalfStruts, mine: Ints, theirs: Ints) -> Floats:
     """(pairs, sides) where rulings of some struts leave others; 0 where they are not inside."""
     rays = halves.rays[mine]
     across = halves.radius[mine, None, None] * rays
@@ -165,7 +165,7 @@ def joint_pieces(
     node = np.concatenate([np.repeat(halves.node[taking], sides), free_node])
     disc = np.concatenate([np.repeat(taking, sides), np.full(len(free), -1)])
     order = np.argsort(node, kind="stable")
-    rows, failed = _triangulated(place[order], node[order], disc[order], monitor)
+    rows, failed = _triangulate(place[order], node[order], disc[order], monitor)
     surface = Pieces(place[order], node[order], frame, halves)
     rows = surface.flipped(rows)
     moved = surface.fitted(rows, disc[order] < 0)
@@ -268,7 +268,7 @@ def _distinct(points: Floats, node: Ints, balls: Floats, edge: float) -> Bools:
     return kept
 
 
-def _triangulated(place: Floats, node: Ints, disc: Ints, monitor: Monitor) -> tuple[Ints, Ints]:
+def _triangulate(place: Floats, node: Ints, disc: Ints, monitor: Monitor) -> tuple[Ints, Ints]:
     """The triangles of pieces, given all their vertices, piece by piece; the discs are left open.
 
     And the nodes at which that failed.

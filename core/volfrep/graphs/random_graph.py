@@ -58,14 +58,14 @@ def random_graph(
     """
     points, spacing = _points(wanted, domain, spacing, depth, monitor)
     for _ in range(wanted.relax):
-        points = _relaxed(points)
+        points = _relax(points)
         monitor.tick(0.2)
     on_wall = np.zeros((0, 2), np.int64)
     if wanted.kind == "voronoi":
         found = Voronoi(points)
         nodes, struts = found.vertices, _ridge_edges(found)[0]
         if wanted.on_wall:
-            nodes, struts, on_wall = _ended_on_wall(found, struts, domain, monitor)
+            nodes, struts, on_wall = _end_on_wall(found, struts, domain, monitor)
     else:
         nodes = points
         corners = Delaunay(points).simplices
@@ -81,7 +81,7 @@ def random_graph(
     at_wall[on_wall] = True
     struts = np.concatenate([struts[kept], on_wall])
     at_wall = at_wall[np.unique(struts)]
-    nodes, struts = _used(nodes, struts)
+    nodes, struts = _drop_unused(nodes, struts)
     nodes, struts = merge_short_struts(nodes, struts, wanted.shortest or shortest, at_wall)
     struts = without_narrow(nodes, struts, wanted.least_angle)
     struts = _without_free_ends(nodes, struts, domain, monitor)
@@ -89,7 +89,7 @@ def random_graph(
         raise VolfrepError(
             "The network has no strut in the part: take more points, or smaller cells."
         )
-    return _used(nodes, struts)
+    return _drop_unused(nodes, struts)
 
 
 def _points(
@@ -118,7 +118,7 @@ def _points(
             )
         drawn = random.uniform(low, high, (int(needed), 3))
         if not even:
-            drawn = drawn[_taken(wanted, drawn, depth, random)]
+            drawn = drawn[_thin_out(wanted, drawn, depth, random)]
         inside = inside_points(domain, drawn, monitor)
         there = int(inside.sum())
         more = 1.2 * needed * count / max(there, 1)
@@ -136,7 +136,7 @@ def _points(
     return drawn[kept], spacing
 
 
-def _taken(
+def _thin_out(
     wanted: RandomGraph,
     drawn: Floats,
     depth: Callable[[Floats], Floats],
@@ -167,7 +167,7 @@ def _ridge_edges(found: Voronoi) -> tuple[Ints, Ints, Ints]:
     return np.unique(np.sort(edges, axis=1), axis=0), corner, ridge
 
 
-def _relaxed(points: Floats) -> Floats:
+def _relax(points: Floats) -> Floats:
     """Points moved to the middle of their cells' corners; those of open cells stay."""
     found = Voronoi(points)
     _, corner, ridge = _ridge_edges(found)
@@ -184,7 +184,7 @@ def _relaxed(points: Floats) -> Floats:
     return np.where((bad | (number == 0))[:, None], points, moved)
 
 
-def _ended_on_wall(
+def _end_on_wall(
     found: Voronoi, struts: Ints, domain: TriangleMesh, monitor: Monitor
 ) -> tuple[Floats, Ints, Ints]:
     """Voronoi edges that end on a wall, and struts along it where it cuts the cells' faces.
@@ -244,7 +244,7 @@ def _in_domain(nodes: Floats, struts: Ints, domain: TriangleMesh, monitor: Monit
     return np.asarray(near, np.bool_)
 
 
-def _used(nodes: Floats, struts: Ints) -> tuple[Floats, Ints]:
+def _drop_unused(nodes: Floats, struts: Ints) -> tuple[Floats, Ints]:
     used, rows = np.unique(struts, return_inverse=True)
     return nodes[used], rows.reshape(-1, 2)
 
@@ -286,7 +286,7 @@ def merge_short_struts(
         struts = np.sort(label[struts], axis=1)
         struts = struts[struts[:, 0] != struts[:, 1]]
         struts = np.unique(struts, axis=0)
-    return _used(nodes, struts)
+    return _drop_unused(nodes, struts)
 
 
 def without_narrow(nodes: Floats, struts: Ints, degrees: float) -> Ints:

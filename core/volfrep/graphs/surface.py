@@ -107,8 +107,8 @@ def graph_surface(frame: Wireframe, sides: int, monitor: Monitor) -> GraphSurfac
     united, lost = None, np.zeros(0, np.int64)
     if not solo.all():
         for _ in range(_GROWTHS):
-            united = _united(frame, halves, seat, solo, sides, monitor)
-            lost = _lost_discs(points, united, frame, solo, sides)
+            united = _unite(frame, halves, seat, solo, sides, monitor)
+            lost = _find_lost_discs(points, united, frame, solo, sides)
             if not len(lost):
                 break
             solo[frame.struts[lost]] = False
@@ -131,7 +131,7 @@ def graph_surface(frame: Wireframe, sides: int, monitor: Monitor) -> GraphSurfac
     return GraphSurface(compact(joined), *found)
 
 
-def _united(
+def _unite(
     frame: Wireframe,
     halves: HalfStruts,
     seat: Floats,
@@ -223,7 +223,7 @@ def _same_places(discs: Floats, united: TriangleMesh) -> Ints:
     return np.array(found, np.int64)
 
 
-def _lost_discs(
+def _find_lost_discs(
     points: Floats, united: TriangleMesh, frame: Wireframe, solo: Bools, sides: int
 ) -> Ints:
     """The struts whose discs a union has cut, so that the joint beyond would not fit."""

@@ -170,7 +170,7 @@ def crossed_cells(
         (nx, ny, nz) bool.
     """
     if any(grid.periodic):
-        return _crossed_around(grid, corners, monitor, margin)
+        return _find_crossed_around(grid, corners, monitor, margin)
     crossed = np.zeros(grid.cells, bool)
     # In units of half a cell, about the first cell's centre.
     half = 0.5 * grid.cell_size * (1.0 + margin)
@@ -202,7 +202,7 @@ def crossed_cells(
     return crossed.reshape(grid.shape)
 
 
-def _crossed_around(
+def _find_crossed_around(
     grid: CellGrid, corners: Floats, monitor: Monitor, margin: float
 ) -> NDArray[np.bool_]:
     """`crossed_cells` where the grid closes upon itself: three turns of it side by side."""

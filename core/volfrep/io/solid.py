@@ -171,7 +171,7 @@ def check_solid(mesh: TriangleMesh, name: str) -> Solid:
     repairs += done
     if not len(mesh.triangles):
         raise VolfrepError(f"'{name}' has no triangle with an area: give a solid, not a surface.")
-    mesh, edges, turned, done, why = _closed(mesh, size, name)
+    mesh, edges, turned, done, why = _close(mesh, size, name)
     repairs += done
     _refuse_defects(mesh, edges, why, name)
     mesh, done = separate(mesh, edges)
@@ -187,7 +187,7 @@ def check_solid(mesh: TriangleMesh, name: str) -> Solid:
         shell = np.unique(shell[~empty], return_inverse=True)[1].ravel()
     mesh, done, body = face_outward(mesh, shell, turned, name)
     repairs += done
-    mesh, done, warnings = _enclosed_once(mesh, body, touched, name)
+    mesh, done, warnings = _unite_and_prove(mesh, body, touched, name)
     repairs += done
     if step > COARSE_STEP * size:
         warnings += (
@@ -197,7 +197,7 @@ def check_solid(mesh: TriangleMesh, name: str) -> Solid:
     return Solid(mesh.vertices, mesh.triangles, tuple(f"{text}." for text in repairs), warnings)
 
 
-def _closed(
+def _close(
     mesh: TriangleMesh, size: float, name: str
 ) -> tuple[TriangleMesh, Sides, Bools, list[str], str]:
     """Neighbours wound alike and, as far as that is certain, no open edges.
@@ -253,7 +253,7 @@ def _refuse_defects(mesh: TriangleMesh, edges: Sides, why: str, name: str) -> No
         )
 
 
-def _enclosed_once(
+def _unite_and_prove(
     mesh: TriangleMesh, body: Ints, touched: bool, name: str
 ) -> tuple[TriangleMesh, list[str], tuple[str, ...]]:
     """Overlaps united, and the proof that the result is a solid, the one that was meant.

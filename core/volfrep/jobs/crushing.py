@@ -193,7 +193,7 @@ def crush(
     model, notes = fitted_beams(
         wireframe, None, unit, cell_size, section="circle", elements_per_strut=ELEMENTS
     )
-    strains, forces, ends = _pressed(model, solid, cell_size, strain, Monitor(progress))
+    strains, forces, ends = _press_plate(model, solid, cell_size, strain, Monitor(progress))
     area = float(np.prod(np.ptp(wireframe.nodes[:, :2], axis=0)))
     density = density_of(unit, strut_radius / cell_size).value
     return CrushCurve(
@@ -209,7 +209,7 @@ def crush(
     )
 
 
-def _pressed(
+def _press_plate(
     mesh: BeamMesh, solid: SolidMaterial, cell_size: float, most: float, monitor: Monitor
 ) -> tuple[Floats, Floats, tuple[str, ...]]:
     """A plate comes down on beams.

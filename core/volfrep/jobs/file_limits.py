@@ -78,7 +78,7 @@ def fit_within(
     finest, coarsest = spec.facets_along_cell, spec.kind.coarsest_resolution
     coarsest = min(coarsest, finest)
     told = expect(spec if coarsest == finest else _with(spec, coarsest))
-    if told > SLOW and _used(limits, told, each * told / 1e6) > SURELY:
+    if told > SLOW and _share_used(limits, told, each * told / 1e6) > SURELY:
         raise _too_many(limits, coarsest, f"would have about {round_off(told)} triangles")
     low, high = coarsest, finest
     facets, best = _first(spec, limits, expect, each, coarsest, finest), None
@@ -87,7 +87,7 @@ def fit_within(
         tried = spec if facets == finest else _with(spec, facets)
         made, triangles, megabytes = make(tried)
         left.discard(facets)
-        used = _used(limits, triangles, megabytes)
+        used = _share_used(limits, triangles, megabytes)
         if used <= 1.0:
             low = max(low, facets + 1)
             if best is None or used > best.used:
@@ -122,7 +122,7 @@ def _fit_corners(
 ) -> Fitted[T]:
     """The same of a graph lattice, which has facets round its struts and no others."""
     made, triangles, megabytes = make(spec)
-    used = _used(limits, triangles, megabytes)
+    used = _share_used(limits, triangles, megabytes)
     if used <= 1.0:
         return Fitted(made, spec, used, "")
     radius = spec.strut_radius
@@ -134,7 +134,7 @@ def _fit_corners(
         deviation = (2.0 * math.pi / corners) ** 2 / 16.0 * radius
         tried = replace(spec, resolution=None, deviation=deviation * (1.0 + 1e-9))
         made, triangles, megabytes = make(tried)
-        used = _used(limits, triangles, megabytes)
+        used = _share_used(limits, triangles, megabytes)
         if used <= 1.0:
             note = (
                 f"To keep within {limits} struts have {corners} corners round in place of "
@@ -160,7 +160,7 @@ def _with(spec: LatticeSpec, facets: int) -> LatticeSpec:
     return replace(spec, resolution=facets, deviation=None)
 
 
-def _used(limits: FileLimits, triangles: float, megabytes: float) -> float:
+def _share_used(limits: FileLimits, triangles: float, megabytes: float) -> float:
     """The largest share of the limits."""
     shares = [0.0]
     if limits.triangles is not None:
@@ -183,7 +183,7 @@ def _first(
     while low < high:
         facets = (low + high + 1) // 2
         triangles = expect(spec if facets == finest else _with(spec, facets))
-        if _used(limits, triangles, each * triangles / 1e6) <= 1.0:
+        if _share_used(limits, triangles, each * triangles / 1e6) <= 1.0:
             low = facets
         else:
             high = facets - 1

@@ -76,7 +76,7 @@ class PartDomain:
         """That surface, its quality, and what is to be said of it."""
         boundary = TrimmedSurface(self.domain.mesh)
         clean = tidy(boundary, shortest_edge(self.solid), self.monitor)
-        return finish(clean, measure(clean.mesh), self.monitor, moved=False)
+        return finish(clean, measure(clean.mesh), self.monitor, deformed=False)
 
     @cached_property
     def placement(self) -> Placement:

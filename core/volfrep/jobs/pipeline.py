@@ -114,7 +114,7 @@ def filled_mesh(
     result = fill(checked, spec, progress=progress, cache=cache)
     mesh = result.mesh
     kinds = kinds_of_triangles(mesh, checked, spec)
-    shown = None if show is None else _shown(mesh, kinds, *show)
+    shown = None if show is None else _display_mesh(mesh, kinds, *show)
     return FilledMesh(mesh, result.report, kinds, triangles_digest(mesh), shown)
 
 
@@ -150,7 +150,7 @@ def forecast_and_fill(
     return forecast, filled
 
 
-def _shown(
+def _display_mesh(
     mesh: TriangleMesh, kinds: NDArray[np.uint8], most: int, proxy_triangles: int
 ) -> ShownMesh:
     is_coarse = len(mesh.triangles) > most

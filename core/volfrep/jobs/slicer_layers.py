@@ -91,7 +91,9 @@ def add_up(
             sparse = fill - layers.solid(layer, band)
             solid_volume += depth * float(fill.area() - sparse.area())
             sparse_volume[band] += depth * sparse.area()
-            reached = _opened(_simple(sparse).offset(-0.5 * wanted.spacing), PIECE * wanted.spacing)
+            reached = _open_section(
+                _simple(sparse).offset(-0.5 * wanted.spacing), PIECE * wanted.spacing
+            )
             outlines[band] += [_outline(one) for one in reached.decompose() if not one.is_empty()]
             laid[band] += depth * (reached.area() + 0.5 * wanted.spacing * _outline(reached)[0])
     arrays = tuple(np.array(rows).reshape(-1, 2) for rows in outlines)
@@ -138,7 +140,7 @@ class _Layers:
         def bare(layer: int, way: int) -> CrossSection:
             if not 0 <= layer + way < count:
                 return whole(layer)
-            return _opened(whole(layer) - whole(layer + way), OVERLOOKED * line)
+            return _open_section(whole(layer) - whole(layer + way), OVERLOOKED * line)
 
         @cache
         def widened(layer: int, band: int, way: int) -> CrossSection:
@@ -169,7 +171,7 @@ class _Layers:
 
         def covered(layer: int, band: int) -> CrossSection:
             room = fill(layer, band) - outer(layer, band)
-            return fill(layer, band) - room + _opened(room - around(layer), NARROW * line)
+            return fill(layer, band) - room + _open_section(room - around(layer), NARROW * line)
 
         self.whole, self.inset, self.fill, self.solid = whole, inset, fill, covered
 
@@ -178,7 +180,7 @@ def _simple(section: CrossSection) -> CrossSection:
     return section.simplify(CLOSE)
 
 
-def _opened(section: CrossSection, reach: float) -> CrossSection:
+def _open_section(section: CrossSection, reach: float) -> CrossSection:
     """What a circle of a radius reaches within a section."""
     return _simple(section).offset(-reach).offset(reach)
 

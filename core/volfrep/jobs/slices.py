@@ -156,7 +156,7 @@ def write_layers(
         ),
     ):
         sections = each_section(part, heights, error, made, infill.monitor)
-        areas, files = _written(sections, place, form, len(heights))
+        areas, files = _write_layers(sections, place, form, len(heights))
         volume = float(sum(areas) * layer)
         done = Layers(
             len(areas), float(sum(areas)), volume, volume * spec.density * 1e-3,
@@ -178,7 +178,7 @@ def write_layers(
     return done
 
 
-def _written(
+def _write_layers(
     layers: Iterator[tuple[bytes, float]], place: Path, form: str, count: int
 ) -> tuple[list[float], list[str]]:
     """Write layers as they come: the area of each, and the file it is in."""

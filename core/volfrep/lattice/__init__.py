@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Octants laid side by side and proved sound; struts that are missing, moved or graded."""
+"""Octants placed side by side and proved sound; struts that are missing, deformed or graded."""

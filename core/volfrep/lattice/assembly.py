@@ -20,7 +20,7 @@ from ..octants.octant import STEPS, Octant, OctantGrid, OctantKey, frames
 from ..util.progress import Monitor
 from ..util.types import Floats
 
-#: Octants are laid in groups of about so many vertices or triangles: a cancel is soon seen.
+#: Octants are placed in groups of about so many vertices or triangles: a cancel is soon seen.
 CHUNK_VERTICES = 200_000
 
 

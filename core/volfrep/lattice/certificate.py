@@ -97,14 +97,14 @@ class CertifiedPieces:
 
 
 def certify_pieces(
-    layout: Layout, centre: Floats, moved: DeformedOctants | None = None
+    layout: Layout, centre: Floats, deformed: DeformedOctants | None = None
 ) -> CertifiedPieces:
     """The certificate of the octants of a layout whose surface may go on where octants are missing.
 
     Args:
         layout: the numbered octants.
         centre: (3,) that positions are measured from, in lattice space, mm.
-        moved: measures of all of them, in the part, where their vertices were moved.
+        deformed: measures of all of them, in the part, where their vertices were moved.
 
     Raises:
         RuntimeError: the octants do not fit together.
@@ -127,7 +127,7 @@ def certify_pieces(
     for number, (kind, place) in enumerate(zip(kinds, layout.places, strict=True)):
         index = first[tuple(place.T)][:, None] + np.arange(kind.pieces)
         index = label[index.ravel()]
-        if moved is None:
+        if deformed is None:
             corner, sign = layout.frames(place)
             offset = corner * grid.cell_size + grid.origin - centre
             own = kind.volume + np.einsum("ki,pi->kp", offset * sign, kind.normal) / 3.0
@@ -135,7 +135,7 @@ def certify_pieces(
             degenerate += len(place) * kind.degenerate
             area += len(place) * kind.area
         else:
-            own, across, its_area, its_degenerate = moved.of(number, place, centre)
+            own, across, its_area, its_degenerate = deformed.of(number, place, centre)
             degenerate += its_degenerate
             area += its_area
         volume += np.bincount(index, own.ravel(), minlength=pieces)
@@ -282,9 +282,9 @@ def keeps_corners(octants: Iterable[Octant], size: float, bounds: Floats) -> boo
     not on its faces lie farther from these, and so from the vertices of its neighbours.
 
     Args:
-        octants: the kinds of octant that are laid.
+        octants: the kinds of octant that are placed.
         size: their edge, mm.
-        bounds: (2, 3) of all that is laid, mm.
+        bounds: (2, 3) of all that is placed, mm.
     """
     farthest = float(np.abs(bounds).max())
     if not farthest < np.finfo(np.float32).max:

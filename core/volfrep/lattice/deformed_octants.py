@@ -63,7 +63,7 @@ def look_at_deformed(
     for octant, every in zip(octants, layout.places, strict=True):
         place = every[where[tuple(every.T)]]
         row[tuple(place.T)] = np.arange(len(place))
-        found = _measured(layout, octant, place, points, safe, monitor)
+        found = _measure(layout, octant, place, points, safe, monitor)
         kinds.append(found)
         unsound[tuple(place.T)] = ~found.sound
         bent[tuple(place.T)] = found.turned < _most_turned(octant)
@@ -117,7 +117,7 @@ def _close(points: Floats, reach: float) -> Ints:
     return np.flatnonzero(chosen)
 
 
-def _measured(
+def _measure(
     layout: Layout, octant: Octant, place: Ints, points: Floats, safe: float, monitor: Monitor
 ) -> Measured:
     kind, count, copies = look_at(octant), len(place), _copies(octant)

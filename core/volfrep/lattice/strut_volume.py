@@ -83,7 +83,7 @@ def volume_by_radius(
         weights: (n,) the volume that each stands for, mm3.
         largest: radius up to which volumes are wanted, mm: the smaller, the faster.
     """
-    solid_from = _reached_at(frame, radius, cell_size, points, largest)
+    solid_from = _radii_reaching(frame, radius, cell_size, points, largest)
     known = np.flatnonzero(solid_from <= largest)
     order = known[np.argsort(solid_from[known])]
     steps = np.cumsum(weights[order])
@@ -122,7 +122,7 @@ def points_about(frame: Wireframe, reach: float, points_log2: int) -> tuple[Floa
     return points, np.full(len(points), float(np.prod(high - low)) / len(points))
 
 
-def _reached_at(
+def _radii_reaching(
     frame: Wireframe, radius: float, cell_size: float, points: Floats, largest: float
 ) -> Floats:
     """(n,) the strut radius from which on points are solid, mm; at most the largest is sure."""

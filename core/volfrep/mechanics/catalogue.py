@@ -315,7 +315,7 @@ def joint_law(cell: UnitCell, cell_size: float, section: str = "circle") -> Join
     if known is not None:
         return lambda radius: known.joint(radius / cell_size, section)
     key = (cell.nodes.tobytes(), cell.struts.tobytes())
-    return lambda radius: _fitted(cell, key, radius / cell_size, section)
+    return lambda radius: _interpolate_ends(cell, key, radius / cell_size, section)
 
 
 #: Fits of cells that are not the library's: by nodes, struts, step and section.
@@ -324,7 +324,7 @@ _FITTED: dict[tuple[bytes, bytes, int, str], Ends] = {}
 _STEP, _THINNEST, _THICKEST = 1.4, 0.03, 0.25
 
 
-def _fitted(cell: UnitCell, key: tuple[bytes, bytes], ratio: float, section: str) -> Ends:
+def _interpolate_ends(cell: UnitCell, key: tuple[bytes, bytes], ratio: float, section: str) -> Ends:
     """Interpolated between the two steps about an r / L."""
     place = np.log(np.clip(ratio, _THINNEST, _THICKEST)) / np.log(_STEP)
     below = int(np.floor(place))

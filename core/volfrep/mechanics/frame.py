@@ -101,7 +101,7 @@ def frame_tensor(
         VolfrepError: there are no struts.
     """
     stiffness = _strut_stiffness(frame, radius, ends or Ends(), section, poisson, longest)
-    uniform, relaxed = _strained(frame, stiffness)
+    uniform, relaxed = _strain_frame(frame, stiffness)
     energy = np.einsum("mij,mik->jk", uniform, stiffness @ (uniform + relaxed))
     result: Floats = energy / frame.volume
     return result
@@ -119,7 +119,7 @@ def axial_forces(frame: PeriodicFrame, radius: float, ends: Ends | None = None) 
         VolfrepError: there are no struts.
     """
     stiffness = _strut_stiffness(frame, radius, ends or Ends(), CIRCLE, 0.3, 0.4)
-    uniform, relaxed = _strained(frame, stiffness)
+    uniform, relaxed = _strain_frame(frame, stiffness)
     span = frame.end - frame.start
     along = span / np.linalg.norm(span, axis=1)[:, None]
     forces = stiffness @ (uniform + relaxed)
@@ -127,7 +127,7 @@ def axial_forces(frame: PeriodicFrame, radius: float, ends: Ends | None = None) 
     return result
 
 
-def _strained(frame: PeriodicFrame, stiffness: Floats) -> tuple[Floats, Floats]:
+def _strain_frame(frame: PeriodicFrame, stiffness: Floats) -> tuple[Floats, Floats]:
     """(m, 12, 6) displacements of struts' ends that go with unit strains, and those they add."""
     unknown = (6 * frame.struts[:, :, None] + np.arange(6)).reshape(-1, 12)
     size = 6 * frame.nodes

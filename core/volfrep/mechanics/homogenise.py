@@ -193,11 +193,11 @@ def homogenise_voxels(
     grids += [solve_grid(voxels(size), poisson, cubic=cubic) for size in sizes[1:]]
     found = np.array([grid.tensor for grid in grids])
     _refuse_loose(found[-1], name)
-    limit = _bounded_by(extrapolate(found, sizes), found[-1])
+    limit = _bound(extrapolate(found, sizes), found[-1])
     return Homogenised(limit, found, sizes, grids[-1], grids[-2])
 
 
-def _bounded_by(limit: Floats, finest: Floats) -> Floats:
+def _bound(limit: Floats, finest: Floats) -> Floats:
     """The limit, brought between `KEPT` of the finest grid's stiffness and all of it.
 
     It stays as it is where it lies there, or next to nothing above.

@@ -69,14 +69,14 @@ def stresses(grid: Grid, poisson: float) -> Stresses:
         strain[rows] = strain_matrices(middle[rows]) @ displacement[unknown[rows]]
     stress = solid_stiffness(1.0, poisson) @ (strain + strains)
     mises = von_mises(stress, axis=1)
-    largest = np.array([_exceeded(column, weight, EXCEPTED) for column in mises.T])
+    largest = np.array([_quantile(column, weight, EXCEPTED) for column in mises.T])
     # What is not carried comes out as a strain without stress.
     row = [STRESSES.index(name) for name in names]
     carried = np.diag((grid.tensor @ strains)[row]) > 1.0 - _LOST
     return Stresses(names, np.where(carried, largest, np.inf), mises.max(axis=0))
 
 
-def _exceeded(values: Floats, weights: Floats, share: float) -> float:
+def _quantile(values: Floats, weights: Floats, share: float) -> float:
     """The value that a share of the weights lies above."""
     order = np.argsort(values)
     above = np.cumsum(weights[order][::-1])

@@ -378,7 +378,7 @@ def figures_of(found: Homogenised, solid: SolidMaterial | None) -> Figures:
     )
     for name, (value, error) in _limits(found, poisson).items():
         values[name], errors[name] = limit * value, limit * error
-    values["conductivity"], errors["conductivity"] = _conducted(found)
+    values["conductivity"], errors["conductivity"] = _mean_conductivity(found)
     errors["stiffness"] = young * found.error_of(lambda tensor: tensor)
     stressed = stresses(found.finest, poisson)
     von_mises = dict(zip(stressed.names, stressed.largest.tolist(), strict=True))
@@ -396,7 +396,7 @@ def _limits(found: Homogenised, poisson: float) -> dict[str, tuple[float, float]
     return result
 
 
-def _conducted(found: Homogenised) -> tuple[float, float]:
+def _mean_conductivity(found: Homogenised) -> tuple[float, float]:
     """The mean conductivity over the solid's and its error."""
     fine, coarse = (np.trace(conductance(grid)) / 3.0 for grid in (found.finest, found.coarser))
     (coarser, finer) = found.along[1:]

@@ -114,7 +114,7 @@ def _twins(
     if size <= BLOCK_ROWS:
         shares, backend = 1, ParallelBackend()
     with backend.sharing(key) as (keys,):
-        found = backend.starmap(_repeated, ((keys, share, shares) for share in range(shares)))
+        found = backend.starmap(_find_repeated, ((keys, share, shares) for share in range(shares)))
         shared_keys = np.concatenate(list(found))
     if not len(shared_keys):
         return np.zeros(0, np.int64)
@@ -129,7 +129,7 @@ def _twins(
     return twins
 
 
-def _repeated(keys: SharedArray, share: int, shares: int) -> NDArray[np.uint64]:
+def _find_repeated(keys: SharedArray, share: int, shares: int) -> NDArray[np.uint64]:
     """The numbers that occur more than once, of those that leave `share` when divided."""
     key: NDArray[np.uint64] = keys.array
     some = key[key % np.uint64(shares) == np.uint64(share)] if shares > 1 else key

@@ -190,9 +190,9 @@ def edge_uses(
         uses = np.concatenate([block.uses for block in found])
     edge, row = np.unique(ends[:, 0] * size + ends[:, 1], return_inverse=True)
     ahead, back = (np.bincount(row.ravel(), uses[:, k], len(edge)) for k in (0, 1))
-    counts = np.array([_counted(ahead, back), *(block.counted for block in found)]).sum(axis=0)
+    counts = np.array([_count_edges(ahead, back), *(block.counted for block in found)]).sum(axis=0)
     count, single, overused, misoriented = counts.tolist()
-    piece, pieces = _joined(found, shared)
+    piece, pieces = _join_pieces(found, shared)
     return EdgeUses(count, single, overused, misoriented, piece, pieces)
 
 
@@ -239,7 +239,7 @@ def _uses_in(every: SharedArray, first: int, count: int, is_shared_in: SharedArr
     once = both.data == AHEAD + BACK
     once[entry] = True
     other = both.data[~once]
-    _, *faults = _counted(other % BACK, other // BACK)
+    _, *faults = _count_edges(other % BACK, other // BACK)
     counted = both.nnz - len(entry), *faults
     uses = np.stack([both.data[entry] % BACK, both.data[entry] // BACK], axis=1)
     pieces, piece = connected_components(both, directed=False)
@@ -264,7 +264,7 @@ def _counts(corners: NDArray[np.int32], size: int) -> Any:
     return csr_matrix((uses, places), shape=(size, size))
 
 
-def _counted(ahead: Ints, back: Ints) -> tuple[int, int, int, int]:
+def _count_edges(ahead: Ints, back: Ints) -> tuple[int, int, int, int]:
     """How many edges there are, and open, overused and misoriented ones among them."""
     uses = ahead + back
     return (
@@ -275,7 +275,7 @@ def _counted(ahead: Ints, back: Ints) -> tuple[int, int, int, int]:
     )
 
 
-def _joined(blocks: list[_Block], shared: Bools) -> tuple[NDArray[np.int32], int]:
+def _join_pieces(blocks: list[_Block], shared: Bools) -> tuple[NDArray[np.int32], int]:
     """The piece of each vertex, and how many there are, of blocks with vertices in common."""
     result = np.zeros(len(shared), np.int32)
     if not blocks:
@@ -360,10 +360,10 @@ def pinched_vertices(mesh: TriangleMesh) -> int:
     at = mesh.triangles.ravel()[order]
     cuts = np.searchsorted(at, np.arange(0, len(mesh.vertices) + BLOCK_VERTICES, BLOCK_VERTICES))
     spans = [slice(start, stop) for start, stop in itertools.pairwise(cuts.tolist())]
-    return sum(in_threads(lambda span: _pinched_in(mesh, order[span], at[span]), spans))
+    return sum(in_threads(lambda span: _count_pinched(mesh, order[span], at[span]), spans))
 
 
-def _pinched_in(mesh: TriangleMesh, corner: NDArray[np.int64], at: NDArray[np.int32]) -> int:
+def _count_pinched(mesh: TriangleMesh, corner: NDArray[np.int64], at: NDArray[np.int32]) -> int:
     """Pinched vertices among those whose (complete) sets of corners are given."""
     if not len(corner):
         return 0

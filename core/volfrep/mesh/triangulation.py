@@ -42,7 +42,7 @@ def clip_ears(loops: Sequence[NDArray[np.float64]]) -> Ints:
         owner = next((o for o in outlines if _encloses(points[rows[o]], points[rows[k]])), None)
         if owner is not None:
             of[owner].append(rows[k])
-    found = [_ears(points, _bridged(points, rows[k], of[k])) for k in of]
+    found = [_ears(points, _bridge_holes(points, rows[k], of[k])) for k in of]
     return np.concatenate(found) if found else np.zeros((0, 3), np.int64)
 
 
@@ -62,7 +62,7 @@ def _encloses(outline: Floats, hole: Floats) -> bool:
     return bool((crossed.sum(axis=1) % 2 == 1).mean() > 0.5)
 
 
-def _bridged(points: Floats, outline: Ints, holes: list[Ints]) -> Ints:
+def _bridge_holes(points: Floats, outline: Ints, holes: list[Ints]) -> Ints:
     """One closed way along the outline and all its holes."""
     for hole in sorted(holes, key=lambda rows: -float(points[rows, 0].max())):
         start = int(points[hole, 0].argmax())

@@ -32,7 +32,7 @@ def cluster_vertices(mesh: TriangleMesh, most: int) -> TriangleMesh:
         return mesh
     step = math.sqrt(TRIANGLES_PER_SQUARE * mesh.area / most)
     while True:
-        result = _clustered(mesh, step)
+        result = _cluster(mesh, step)
         if len(result.triangles) <= most:
             return result
         step *= COARSER
@@ -49,7 +49,7 @@ def is_outside(mesh: TriangleMesh) -> NDArray[np.bool_]:
     return np.asarray(volume[shell] > 0)
 
 
-def _clustered(mesh: TriangleMesh, step: float) -> TriangleMesh:
+def _cluster(mesh: TriangleMesh, step: float) -> TriangleMesh:
     cube = np.floor((mesh.vertices - mesh.bounds[0]) / step).astype(np.int64)
     size = cube.max(axis=0) + 1
     key = (cube[:, 0] * size[1] + cube[:, 1]) * size[2] + cube[:, 2]

@@ -127,7 +127,7 @@ def mend_bad_facets(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -
         for _ in range(RINGS):
             part = adjacent(part, triangles, len(points))
         used, local = numbered(triangles[part], len(points))
-        moved, piece = _mended(points[used], local, tolerance, shortest, done % 2 == 1)
+        moved, piece = _mend(points[used], local, tolerance, shortest, done % 2 == 1)
         row = np.concatenate([used, len(points) + np.arange(len(moved) - len(used))])
         points = np.concatenate([points, moved[len(used) :]])
         points[used] = moved[: len(used)]
@@ -155,15 +155,15 @@ def names(triangles: Ints, count: int) -> Ints:
     return result
 
 
-def _mended(
+def _mend(
     points: Floats, triangles: Ints, tolerance: Tolerance, shortest: float, dearer: bool
 ) -> tuple[Floats, Ints]:
     """An open piece after one round: points keep their rows, though not their facets."""
     triangles = _without_threes(points, triangles, tolerance)
-    points, triangles = _collapsed(points, triangles, tolerance, dearer)
-    triangles = _flipped(points, triangles, tolerance)
+    points, triangles = _collapse(points, triangles, tolerance, dearer)
+    triangles = _flip(points, triangles, tolerance)
     points, triangles = _split(points, triangles, shortest)
-    return points, _flipped(points, triangles, tolerance)
+    return points, _flip(points, triangles, tolerance)
 
 
 def _without_threes(points: Floats, triangles: Ints, tolerance: Tolerance) -> Ints:
@@ -200,7 +200,7 @@ def _without_threes(points: Floats, triangles: Ints, tolerance: Tolerance) -> In
     return np.concatenate([triangles[stays], facet[goes]])
 
 
-def _collapsed(
+def _collapse(
     points: Floats, triangles: Ints, tolerance: Tolerance, dearer: bool
 ) -> tuple[Floats, Ints]:
     """Shortest edges of bad facets collapsed: points, which keep their rows, and facets.
@@ -298,7 +298,7 @@ def are_opposite(one: Floats, other: Floats) -> Bools:
     return np.asarray(np.linalg.norm(sides, axis=1) < np.radians(OPPOSITE), np.bool_)
 
 
-def _flipped(points: Floats, triangles: Ints, tolerance: Tolerance) -> Ints:
+def _flip(points: Floats, triangles: Ints, tolerance: Tolerance) -> Ints:
     """Facets with their edges flipped where that makes the least angle larger."""
     poor = _least_angles(points[triangles]) < WANTED_ANGLE
     at_border = open_vertices(triangles, len(points))

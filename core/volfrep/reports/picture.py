@@ -61,7 +61,7 @@ def picture(
         VolfrepError: pyvista is missing, the name does not end in .png, or it cannot be written.
     """
     stage = new_stage(file, size)
-    for triangles, colour, ambient in _coloured(mesh, spec, solid, cut):
+    for triangles, colour, ambient in _colour_parts(mesh, spec, solid, cut):
         if len(triangles.triangles):
             add_surface(stage, triangles, colour, ambient)
     show_stage(stage, file)
@@ -149,7 +149,7 @@ def drawing_library() -> Any:
     return package("pyvista", "A picture")
 
 
-def _coloured(
+def _colour_parts(
     mesh: TriangleMesh, spec: LatticeSpec, solid: TriangleMesh | None, cut: bool
 ) -> list[tuple[TriangleMesh, str, float]]:
     """Parts of the mesh, each with its colour and how much of it is not shaded."""

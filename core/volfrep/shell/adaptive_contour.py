@@ -58,27 +58,27 @@ def find_offset_surface(field: DepthField) -> OffsetSurface:
         The wall, without crossings and facets where nothing is so deep.
     """
     monitor = field.depth.monitor
-    leaves, negative = _seen_through(field, field.coarsest_leaves(), 0)
+    leaves, negative = _refine_leaves(field, field.coarsest_leaves(), 0)
     known = _Known(np.zeros(0, np.int64), *np.zeros((3, 0, 3)))
     changed = np.ones(len(leaves.size), bool)
     for done in range(ROUNDS):
         monitor.tick(0.2 + 0.6 * done / ROUNDS)
-        near, known, deviates = _looked_at(field, leaves, negative, changed, known)
+        near, known, deviates = _find_negative(field, leaves, negative, changed, known)
         halve = np.zeros(len(leaves.size), bool)
         halve[near] = deviates
         enough = done == ROUNDS - 1 or len(known.names) + 4 * halve.sum() > MOST_EDGES
         if enough or not halve.any():
             break
         stay = leaves.chosen(~halve)
-        halves, below = _seen_through(field, leaves.chosen(halve).halved(), len(stay.size))
+        halves, below = _refine_leaves(field, leaves.chosen(halve).halved(), len(stay.size))
         leaves = stay.joined(halves)
         negative = np.concatenate([negative[~halve], below])
         changed = np.arange(len(leaves.size)) >= len(stay.size)
     crossings = monitor.call(lambda: cross(leaves, negative))
-    return monitor.call(lambda: _contoured(field, leaves, crossings, known))
+    return monitor.call(lambda: _contour(field, leaves, crossings, known))
 
 
-def _seen_through(field: DepthField, leaves: Leaves, others: int) -> tuple[Leaves, Bools]:
+def _refine_leaves(field: DepthField, leaves: Leaves, others: int) -> tuple[Leaves, Bools]:
     """Some of all leaves, halved until no cavity wider than `NARROW` thicknesses is missed.
 
     Returns:
@@ -107,7 +107,7 @@ class _Known:
     normal: Floats
 
 
-def _looked_at(
+def _find_negative(
     field: DepthField, leaves: Leaves, negative: Bools, changed: Bools, known: _Known
 ) -> tuple[Bools, _Known, Bools]:
     """Contour round the changed leaves.
@@ -122,7 +122,7 @@ def _looked_at(
     crossings = depth.monitor.call(lambda: cross(part, negative[near], whole=False))
     new = find(known.names, crossings.edges.names) < 0
     known = _with_new(known, field, crossings, new)
-    surface = depth.monitor.call(lambda: _contoured(field, part, crossings, known))
+    surface = depth.monitor.call(lambda: _contour(field, part, crossings, known))
     leaf = crossings.leaf_of_patch
     small = part.size[leaf] * field.unit < SMALL * depth.thickness
     # A halved leaf beside smaller ones may have none but known edges.
@@ -170,7 +170,7 @@ def _with_new(known: _Known, field: DepthField, crossings: Crossings, new: Bools
     )
 
 
-def _contoured(
+def _contour(
     field: DepthField, leaves: Leaves, crossings: Crossings, known: _Known
 ) -> OffsetSurface:
     rows = find(known.names, crossings.edges.names)

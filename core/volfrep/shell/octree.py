@@ -194,10 +194,10 @@ def _minimal_edges(leaves: Leaves, negative: Bools) -> CrossedEdges:
     edges = CrossedEdges(*(np.concatenate(values) for values in zip(*parts, strict=True)))
     names, once = np.unique(edges.names, return_index=True)
     edges = edges.chosen(once)
-    return edges.chosen(find(_divided(edges), names) < 0)
+    return edges.chosen(find(_find_divided(edges), names) < 0)
 
 
-def _divided(edges: CrossedEdges) -> Ints:
+def _find_divided(edges: CrossedEdges) -> Ints:
     """The names, in ascending order, of all longer edges that some edges are parts of."""
     largest = int(edges.size.max(initial=0))
     found = [np.zeros(0, np.int64)]

@@ -113,14 +113,16 @@ def find_cavity(
         index = monitor.call(lambda: index_surface(solid, spacing, sampled))
         with sharing_index(index, monitor.backend) as shared:
             depth = Depth(index, thickness, monitor, shared=shared)
-            return _found(solid, depth, cube, plain)
+            return _find_cavity(solid, depth, cube, plain)
     else:
         _refuse_too_thin(solid, thickness, solid.area / cube**2, cube)
         depth = open_depth(solid, is_open, thickness, spacing, monitor)
-    return _found(solid, depth, cube, None)
+    return _find_cavity(solid, depth, cube, None)
 
 
-def _found(solid: TriangleMesh, depth: Depth, cube: float, plain: SmoothRegions | None) -> Cavity:
+def _find_cavity(
+    solid: TriangleMesh, depth: Depth, cube: float, plain: SmoothRegions | None
+) -> Cavity:
     """The wall of a depth, by cubes of an edge in mm."""
     monitor = depth.monitor
     field = DepthField(solid, depth, cube, plain)
@@ -129,7 +131,7 @@ def _found(solid: TriangleMesh, depth: Depth, cube: float, plain: SmoothRegions 
     monitor.tick(0.8)
     mesh = simplify(surface, field)
     monitor.tick(0.95)
-    return _measured(without_small(mesh, (SMALLEST_POCKET * cube) ** 3), depth)
+    return _measure_error(without_small(mesh, (SMALLEST_POCKET * cube) ** 3), depth)
 
 
 def _refuse_too_thin(solid: TriangleMesh, thickness: float, cubes: float, cube: float) -> None:
@@ -168,7 +170,7 @@ def without_small(mesh: TriangleMesh, volume: float) -> TriangleMesh:
     return compact(TriangleMesh(mesh.vertices, t[np.abs(enclosed)[label] >= volume]))
 
 
-def _measured(mesh: TriangleMesh, depth: Depth) -> Cavity:
+def _measure_error(mesh: TriangleMesh, depth: Depth) -> Cavity:
     """The wall with its largest error at random points, the same for the same wall."""
     if not len(mesh.triangles):
         return Cavity(mesh, 0.0, np.zeros(3))

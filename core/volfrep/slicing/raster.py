@@ -112,10 +112,10 @@ def pixel_shares(
     held = [np.cumsum(np.where(of_group == k, step, 0)) > 0 for k in range(len(groups))]
     solid = np.diff(np.concatenate([[False], rule(held)]).astype(np.int64))
     turns = np.flatnonzero(solid)
-    return _summed(changes[turns] // (2 * len(groups)), solid[turns], grid)
+    return _sum_shares(changes[turns] // (2 * len(groups)), solid[turns], grid)
 
 
-def _summed(at: Ints, steps: Ints, grid: PixelGrid) -> tuple[NDArray[np.uint8], float]:
+def _sum_shares(at: Ints, steps: Ints, grid: PixelGrid) -> tuple[NDArray[np.uint8], float]:
     """The shares of pixels, of the places where material begins (1) and ends (-1) on each line."""
     rows, columns = grid.shape
     line, along = np.divmod(at, columns * PLACES)

@@ -334,14 +334,14 @@ class SurfaceIndex:
 
         def part(start: int) -> None:
             rows = order[start : start + POINTS_PER_WALK]
-            walked = self._walked(points[rows])
+            walked = self._walk(points[rows])
             closest[rows], distance[rows], triangle[rows], on_edge[rows] = walked
 
         for _ in in_threads(part, range(0, len(points), POINTS_PER_WALK)):
             pass
         return closest, distance, triangle, on_edge
 
-    def _walked(self, points: Floats) -> tuple[Floats, Floats, Ints, Ints]:
+    def _walk(self, points: Floats) -> tuple[Floats, Floats, Ints, Ints]:
         """As `_nearest`, on one thread."""
         nearest = self.tree.query(points)[1]
         triangle = self.triangle_of_sample[nearest].astype(np.int64)
@@ -386,11 +386,11 @@ def sharing_index(index: SurfaceIndex, backend: ParallelBackend) -> Iterator[Sha
 
 def near_shared(shared: SharedIndex, points: Floats) -> tuple[Floats, Floats]:
     """As `SurfaceIndex.near`."""
-    return _opened(shared).near(points)
+    return _open_index(shared).near(points)
 
 
 @lru_cache(maxsize=1)
-def _opened(shared: SharedIndex) -> SurfaceIndex:
+def _open_index(shared: SharedIndex) -> SurfaceIndex:
     # Copies, so that the files are closed.
     arrays = shared.corners, shared.across, shared.samples, shared.triangle_of_sample
     corners, across, samples, triangles = (np.array(each.array) for each in arrays)
@@ -475,14 +475,14 @@ def sample_triangles(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
     starts = range(0, max(len(corners), 1), TRIANGLES_PER_STEP)
 
     def part(start: int) -> tuple[Floats, Ints]:
-        points, owner = _sampled(corners[start : start + TRIANGLES_PER_STEP], spacing)
+        points, owner = _sample(corners[start : start + TRIANGLES_PER_STEP], spacing)
         return points, owner + start
 
     points, owners = zip(*in_threads(part, starts), strict=True)
     return np.concatenate(points), np.concatenate(owners)
 
 
-def _sampled(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
+def _sample(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
     """As `sample_triangles`, on one thread."""
     lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
     longest = lengths.argmax(axis=1)

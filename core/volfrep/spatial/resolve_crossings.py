@@ -230,11 +230,11 @@ def resolve_fold_crossings(
     if deformed:
         # What grazes needs steps of a file only; with as much as folds do it would cross deeper.
         grazes = _depths(mesh, pairs) < GRAZING * decimal_step(mesh.vertices)
-        mesh, left = _resolved(mesh, pairs[grazes], folded.among, SHARES[:GRAZED], monitor)
+        mesh, left = _resolve(mesh, pairs[grazes], folded.among, SHARES[:GRAZED], monitor)
         pairs = np.concatenate([pairs[~grazes], left])
-        mesh, pairs = _resolved(mesh, pairs, folded.among, FOLDED_SHARES, monitor)
+        mesh, pairs = _resolve(mesh, pairs, folded.among, FOLDED_SHARES, monitor)
     if not deformed or len(pairs) <= MOST_PLACES:
-        mesh, pairs = _resolved(mesh, pairs, folded.among, SHARES, monitor)
+        mesh, pairs = _resolve(mesh, pairs, folded.among, SHARES, monitor)
     if mesh is not before:  # what moved may have met what lies anywhere
         moved = displaced_vertices(before, mesh)
         went = touching(moved, mesh.triangles)
@@ -246,7 +246,7 @@ def resolve_fold_crossings(
     return mesh, mesh.vertices[mesh.triangles[pairs[0, 0]]].mean(axis=0)
 
 
-def _resolved(
+def _resolve(
     mesh: TriangleMesh, pairs: Ints, among: Bools, shares: tuple[float, ...], monitor: Monitor
 ) -> tuple[TriangleMesh, Ints]:
     """The mesh after rounds of moves about pairs of triangles that cross; the pairs that are left.
@@ -350,7 +350,7 @@ class _Places:
         """Vertices go so much of their way, or a random one below 0, where that helps."""
         if len(self.pairs) < FEWER * self._watched_pairs:
             self._watch = self._watched()
-        chosen = self._grown(MOST_RINGS) & self._free
+        chosen = self._grow(MOST_RINGS) & self._free
         rows = np.flatnonzero(chosen)
         here = self._mesh_of(self._vertices)
         way = _to_neighbours(here, rows, self._triangles[touching(chosen, self._triangles)])
@@ -362,7 +362,7 @@ class _Places:
         vertices = self._vertices.copy()
         vertices[rows] += abs(share) * way
         left = self._watch.crossing(vertices, chosen)
-        worse = _got_worse(here, chosen, self.pairs, left)
+        worse = _find_worse(here, chosen, self.pairs, left)
         if worse.any():  # each place by itself: what got worse there goes back
             vertices[worse] = self._vertices[worse]
             chosen &= ~worse
@@ -377,10 +377,10 @@ class _Places:
 
     def _watched(self) -> CrossingWatch:
         self._watched_pairs = len(self.pairs)
-        near = touching(self._grown(MOST_RINGS), self._triangles)
+        near = touching(self._grow(MOST_RINGS), self._triangles)
         return CrossingWatch(self._mesh_of(self._vertices), near, self._monitor)
 
-    def _grown(self, most: int) -> Bools:
+    def _grow(self, most: int) -> Bools:
         """(n,) the vertices of triangles that cross, and their rings, at most so many."""
         level = np.zeros(len(self._used), np.int8)
         some = np.unique(self._triangles[self.pairs])
@@ -442,13 +442,13 @@ def _crossing(
     if wanted is None:
         wanted = np.ones(len(rows), bool)
     pairs: Ints = np.unique(
-        rows[np.concatenate(list(in_regions(_rounded_crossing, part, wanted, step, monitor)))],
+        rows[np.concatenate(list(in_regions(_crossing_in_file, part, wanted, step, monitor)))],
         axis=0,
     )
     return pairs
 
 
-def _rounded_crossing(part: TriangleMesh, wanted: Bools, step: float, monitor: Monitor) -> Ints:
+def _crossing_in_file(part: TriangleMesh, wanted: Bools, step: float, monitor: Monitor) -> Ints:
     """(k, 2) triangles of a mesh, one of them wanted, that cross in a file of either kind."""
     # Neither rounding moves a coordinate by more than a step: few pairs need an exact look, twice.
     close = pairs_at_planes(part, step, monitor, wanted)
@@ -463,7 +463,7 @@ def _single(vertices: Floats) -> Floats:
     return vertices.astype(np.float32).astype(np.float64)
 
 
-def _got_worse(mesh: TriangleMesh, chosen: Bools, before: Ints, after: Ints) -> Bools:
+def _find_worse(mesh: TriangleMesh, chosen: Bools, before: Ints, after: Ints) -> Bools:
     """(n,) the chosen vertices of places where more triangles cross than before."""
     t = mesh.triangles
     start, end = t.ravel(), np.roll(t, -1, axis=1).ravel()

@@ -167,10 +167,10 @@ class Lines:
             return crossings(times(corners.reshape(-1, 3), FRAME).reshape(-1, 3, 3), self._points)
 
         met = list(in_threads(met_by, blocks))
-        return _found(met, self._points, self._step)
+        return _windings(met, self._points, self._step)
 
 
-def _found(met: list[tuple[Ints, Ints, Floats, Ints]], points: Floats, step: Floats) -> Windings:
+def _windings(met: list[tuple[Ints, Ints, Floats, Ints]], points: Floats, step: Floats) -> Windings:
     """What lines at (k, 2) points, so far apart, have met."""
     line, height, sign = (np.concatenate([found[k] for found in met]) for k in (0, 2, 3))
     # A line through an edge, as far as rounding tells, may have met one of its triangles only.

@@ -192,7 +192,7 @@ def command_of(design: Design, study: Study, source: str, output: str) -> str:
         elif parameter.kind in LENGTHS:
             words.append(f"{option}={_numbers(value)}")
         else:
-            words += [option, _written(parameter.kind, value)]
+            words += [option, _value_text(parameter.kind, value)]
     if study.material is not None:
         named = study.material
         words += ["--material", named if isinstance(named, str) else named.name]
@@ -215,7 +215,7 @@ def shown_values(design: Design) -> dict[str, Any]:
     return shown
 
 
-def _written(kind: str, value: Any) -> str:
+def _value_text(kind: str, value: Any) -> str:
     if dataclasses.is_dataclass(value):
         return str(getattr(value, "source", "") or getattr(value, "name", ""))
     return repr(float(value)) if kind == "number" or kind in SCALES else str(value)

@@ -291,10 +291,10 @@ def plots_of(table: Table, study: Study, front: Sequence[str]) -> list[Plot]:
     except ImportError:
         return []
     chosen = np.isin(np.array(table.column("key"), str), np.array(front, str))
-    return [Plot(x, y, _drawn(table, x, y, chosen)) for x, y in choose_plots(table, study)]
+    return [Plot(x, y, _draw(table, x, y, chosen)) for x, y in choose_plots(table, study)]
 
 
-def _drawn(table: Table, x: str, y: str, chosen: Bools) -> bytes:
+def _draw(table: Table, x: str, y: str, chosen: Bools) -> bytes:
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 

@@ -137,7 +137,7 @@ def _read(path: Path) -> Record | None:
     return Record(**found)
 
 
-def _named(kind: Callable[[Any], bool]) -> Callable[[Any], bool]:
+def _table_of(kind: Callable[[Any], bool]) -> Callable[[Any], bool]:
     """Whether a value is a table whose values are all of a kind."""
     return lambda value: isinstance(value, dict) and all(map(kind, value.values()))
 
@@ -158,13 +158,15 @@ def _is_figure(value: Any) -> bool:
 _SOUND: dict[str, Callable[[Any], bool]] = {
     "key": _is_text,
     "version": _is_text,
-    "part": _named(_is_text),
+    "part": _table_of(_is_text),
     "values": lambda value: isinstance(value, dict),
-    "results": lambda value: _named(_named(_is_figure))(value) and value.keys() <= ACTIONS.keys(),
+    "results": lambda value: (
+        _table_of(_table_of(_is_figure))(value) and value.keys() <= ACTIONS.keys()
+    ),
     "settings": lambda value: isinstance(value, dict),
-    "errors": _named(_is_text),
-    "notes": _named(lambda value: isinstance(value, list) and all(map(_is_text, value))),
-    "seconds": _named(_is_seconds),
+    "errors": _table_of(_is_text),
+    "notes": _table_of(lambda value: isinstance(value, list) and all(map(_is_text, value))),
+    "seconds": _table_of(_is_seconds),
 }
 
 

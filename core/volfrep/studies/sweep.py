@@ -152,7 +152,7 @@ def _swept(
         check_writable(at / name)
     job = Job(at, asked, how, progress)
     mine = found.designs[how.shard[0] - 1 :: how.shard[1]]
-    damaged = tuple(_damaged(record_path(at, design.key)) for design in mine)
+    damaged = tuple(_damage_text(record_path(at, design.key)) for design in mine)
     runs = job.do(mine, tuple(study.do))
     front: Mapping[str, int] = {}
     if study.front is not None:
@@ -239,7 +239,7 @@ def _figures(folder: Path, made: Design | str, actions: tuple[str, ...]) -> dict
     return {**figures, "error": " ".join(errors) or None}
 
 
-def _damaged(path: Path) -> str:
+def _damage_text(path: Path) -> str:
     """A sentence where a record is damaged; empty where it is not."""
     wrong = damage_of(path)
     return f"The record '{path}' is damaged, {wrong}: its run is done anew." if wrong else ""

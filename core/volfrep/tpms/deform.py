@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Graded walls: the vertices of laid octants where the wall is as thick as wanted in the part.
+"""Graded walls: the vertices of placed octants where the wall is as thick as wanted in the part.
 
 A vertex hangs on its foot on the surface. The map takes the foot to the part, and the normal with
 it; there the vertex stands off by half the thickness that is wanted at that place. So a sheet has
@@ -51,7 +51,7 @@ class _Binding:
 def deform_tpms(
     layout: Layout, solid: TpmsSolid, levels: Levels, mapping: CoordinateMap, monitor: Monitor
 ) -> Deformed:
-    """Where the vertices of laid octants are in the part.
+    """Where the vertices of placed octants are in the part.
 
     Args:
         layout: the numbered octants of a wall of some middle thickness.

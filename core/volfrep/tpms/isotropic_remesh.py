@@ -44,16 +44,16 @@ def remesh_evenly(
     if not len(raw.triangles):
         return surface, origin
     for _ in range(0 if gently else COLLAPSE_ROUNDS):
-        surface, stay = _collapsed(surface)
+        surface, stay = _collapse(surface)
         origin = origin[stay]
-        surface = _even(_flipped(surface), field)
+        surface = _even(_flip(surface), field)
         monitor.tick()
     for _ in range(1 if gently else EVEN_ROUNDS):
-        surface = _even(surface if gently else _flipped(surface), field)
+        surface = _even(surface if gently else _flip(surface), field)
         monitor.tick()
     if not gently:
-        surface = _flipped(surface)
-    return _balanced(surface, field), origin
+        surface = _flip(surface)
+    return _balance_volume(surface, field), origin
 
 
 def _even(surface: PinnedMesh, field: Distances) -> PinnedMesh:
@@ -68,7 +68,7 @@ def _even(surface: PinnedMesh, field: Distances) -> PinnedMesh:
     return move_vertices(surface, vertices)
 
 
-def _balanced(surface: PinnedMesh, field: Distances) -> PinnedMesh:
+def _balance_volume(surface: PinnedMesh, field: Distances) -> PinnedMesh:
     """Inner vertices moved along their normals, all alike, so that the volume is right.
 
     What facets miss of it is the integral of the distance over them.
@@ -98,7 +98,7 @@ def _balanced(surface: PinnedMesh, field: Distances) -> PinnedMesh:
     return move_vertices(surface, surface.vertices + np.where(inner[:, None], amount * summed, 0.0))
 
 
-def _collapsed(surface: PinnedMesh) -> tuple[PinnedMesh, Ints]:
+def _collapse(surface: PinnedMesh) -> tuple[PinnedMesh, Ints]:
     def may_slide(gone: Ints, kept: Ints) -> Bools:
         free: Bools = surface.rank[gone] == 0
         return free
@@ -116,7 +116,7 @@ def _collapsed(surface: PinnedMesh) -> tuple[PinnedMesh, Ints]:
     return smaller, stay
 
 
-def _flipped(surface: PinnedMesh) -> PinnedMesh:
+def _flip(surface: PinnedMesh) -> PinnedMesh:
     """Flips that make angles better."""
     v = surface.vertices
 

@@ -87,7 +87,7 @@ def closed_octants(
     """
     made, loose = {}, {}
     for key in keys:
-        octant = _closed(octants[OctantKey(key.mirror, ALL_ACTIVE)], key, half_size)
+        octant = _close(octants[OctantKey(key.mirror, ALL_ACTIVE)], key, half_size)
         made[key], loose[key] = _without_loose(octant)
     return ClosedOctants(made, loose)
 
@@ -116,7 +116,7 @@ def _without_loose(octant: Octant) -> tuple[Octant, Floats]:
     return left, volume[loose]
 
 
-def _closed(octant: Octant, key: OctantKey, half_size: float) -> Octant:
+def _close(octant: Octant, key: OctantKey, half_size: float) -> Octant:
     axes = [axis for axis in range(3) if not key.pattern >> (1 << axis) & 1]
     if not axes:
         return octant

@@ -199,7 +199,7 @@ class _Period:
             step = SLIDE * total / np.maximum(often, 1)[:, None] * ~pinned
             slid = points[on_face] + step[on_face]
             points[on_face] = self._in_faces(slid, found, ~pinned[on_face])
-        points = self._unfolded(first, points, pairs, on_face)
+        points = self._unfold(first, points, pairs, on_face)
         # Whole steps: octants that share a vertex give it the very same place.
         whole = self.half / STEPS
         points = np.rint(points / whole) * whole
@@ -261,7 +261,7 @@ class _Period:
         result: Floats = gaps - self.cell_size * np.round(gaps / self.cell_size)
         return result
 
-    def _unfolded(self, before: Floats, after: Floats, pairs: Ints, on_face: Ints) -> Floats:
+    def _unfold(self, before: Floats, after: Floats, pairs: Ints, on_face: Ints) -> Floats:
         """Vertices of faces put back where their border folds over."""
         may_return = np.zeros(len(before), bool)
         may_return[on_face] = True

@@ -59,7 +59,7 @@ class Trimmed:
 
 def trim(
     domain: TriangleMesh,
-    laid: PlacedLattice,
+    lattice: PlacedLattice,
     *,
     cavity: bool,
     monitor: Monitor,
@@ -74,7 +74,7 @@ def trim(
 
     Args:
         domain: closed mesh of what the lattice fills.
-        laid: the octants of the lattice.
+        lattice: the octants of the lattice.
         cavity: True for domain - lattice turned inside out (the wall with holes where struts
             meet it, and the struts), False for domain & lattice.
         monitor: for progress and cancel.
@@ -86,23 +86,23 @@ def trim(
         VolfrepError: the domain's mesh is not a solid that can be cut.
     """
     monitor.tick(0.1)
-    kept = laid.kept
-    inner = InnerOctants(laid, kept.inside) if kept.inside.any() else None
-    groups = group_octants(laid, domain, monitor, precision)
-    found = _joined(groups, inner, cavity, monitor, executor, ahead)
+    kept = lattice.kept
+    inner = InnerOctants(lattice, kept.inside) if kept.inside.any() else None
+    groups = group_octants(lattice, domain, monitor, precision)
+    found = _join_groups(groups, inner, cavity, monitor, executor, ahead)
     trimmed = TrimmedSurface(found.mesh, inner, found.looks)
     if not trimmed.is_joined:
         # The Boolean has taken out vertices at the caps, as it may do between tiny triangles: let
         # all the octants go through it, which takes longer.
         every = KeptOctants(kept.grid, kept.border | kept.inside, np.zeros_like(kept.inside))
-        whole = replace(laid, kept=every)
+        whole = replace(lattice, kept=every)
         return trim(
             domain, whole, cavity=cavity, monitor=monitor, executor=executor, precision=precision
         )
     return Trimmed(trimmed, found.on_boundary)
 
 
-def _joined(
+def _join_groups(
     groups: Groups,
     inner: InnerOctants | None,
     cavity: bool,
@@ -178,7 +178,7 @@ def _cut_with(
                 ahead.append((*following, None))
         if ahead:
             number, group, future = ahead.popleft()
-            piece = None if future is None else _finished(future, watch, monitor)
+            piece = None if future is None else _await_piece(future, watch, monitor)
         else:
             number, group = next(groups)
         if piece is None:
@@ -189,7 +189,7 @@ def _cut_with(
         yield number, piece
 
 
-def _finished(future: Future[Piece], watch: Watch, monitor: Monitor) -> Piece | None:
+def _await_piece(future: Future[Piece], watch: Watch, monitor: Monitor) -> Piece | None:
     """What a worker made; None where it was lost, as for want of memory.
 
     What is wrong with a group itself shows again where it is cut next. A cancel does not wait.
@@ -229,10 +229,10 @@ def cut_again(
         VolfrepError: the surface is no solid that can be cut.
     """
     library = manifold_library("Cutting a part once more")
-    if surface.octants is not None and surface.octants.laid.points is not None:
+    if surface.octants is not None and surface.octants.lattice.points is not None:
         surface = TrimmedSurface(surface.whole(monitor))  # a middle of theirs is not known
     if surface.octants is not None:
-        surface = surface.with_octants(_met(surface.octants, by, keeps, monitor), monitor)
+        surface = surface.with_octants(_find_met(surface.octants, by, keeps, monitor), monitor)
     mesh, inner = surface.mesh, surface.octants
     if inner is not None:
         mesh = concatenated_at(mesh, surface.rim_rows, inner.caps(monitor))
@@ -261,7 +261,9 @@ def cut_again(
     return cut_again(whole, by, cut, monitor, keeps=keeps, is_void=is_void)
 
 
-def _met(inner: InnerOctants, by: Sequence[TriangleMesh], keeps: bool, monitor: Monitor) -> Bools:
+def _find_met(
+    inner: InnerOctants, by: Sequence[TriangleMesh], keeps: bool, monitor: Monitor
+) -> Bools:
     """Octants that solids cut, or that do not stay, and those about them that caps need."""
     from scipy import ndimage  # slow to import
 
@@ -276,8 +278,8 @@ def _met(inner: InnerOctants, by: Sequence[TriangleMesh], keeps: bool, monitor: 
     for mesh in by:
         inside |= inside_points(mesh, middle, monitor)
     near |= np.append(False, inside != keeps)[label]
-    present = inner.laid.kept.grid.kind >= 0
-    border = without_pinches(present & ~(inner.where & ~near), present, inner.laid.periodic)
+    present = inner.lattice.kept.grid.kind >= 0
+    border = without_pinches(present & ~(inner.where & ~near), present, inner.lattice.periodic)
     result: Bools = inner.where & border
     return result
 
@@ -334,10 +336,10 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     at_rim[seam[chosen[row[row >= 0]]]] = True
     loose.append(np.searchsorted(begin, _open(triangles, number, seam, at_rim), "right") - 1)
     mesh = compact(whole, owned=True)
-    return Joined(mesh, on_boundary, np.unique(np.concatenate(loose)), _known(pieces))
+    return Joined(mesh, on_boundary, np.unique(np.concatenate(loose)), _known_looks(pieces))
 
 
-def _known(pieces: Sequence[Piece]) -> Looks | None:
+def _known_looks(pieces: Sequence[Piece]) -> Looks | None:
     """What is known of the triangles of pieces, one after the other."""
     steps = {piece.looks.step for piece in pieces if piece.looks is not None}
     if len(steps) != 1:

@@ -94,8 +94,8 @@ def drain(
         VolfrepError: a given hole does not reach the cavity; the text says which.
     """
     site = _Site(solid, domain, thickness, 0.5 * wanted.diameter)
-    holes = _given(site, wanted)
-    drilled = _drilled(part, site.cylinders(holes), monitor)
+    holes = _given_holes(site, wanted)
+    drilled = _drill(part, site.cylinders(holes), monitor)
     found = drilled.inspected(monitor).found
     warnings: list[str] = []
     if wanted.count:
@@ -115,7 +115,7 @@ def drain(
                 )
             monitor.tick()
         added = [cylinder for own in chosen for cylinder in site.cylinders(own)]
-        drilled = _drilled(drilled, added, monitor)
+        drilled = _drill(drilled, added, monitor)
         found = drilled.inspected(monitor).found
     warnings += trapped_warnings(found.quality.voids)
     places = tuple((float(x), float(y), float(z)) for x, y, z in holes.start)
@@ -123,9 +123,7 @@ def drain(
     return Drained(drilled, places, before - found.quality.volume, tuple(warnings))
 
 
-def _drilled(
-    part: TrimmedSurface, cylinders: list[TriangleMesh], monitor: Monitor
-) -> TrimmedSurface:
+def _drill(part: TrimmedSurface, cylinders: list[TriangleMesh], monitor: Monitor) -> TrimmedSurface:
     if not cylinders:
         return part
 
@@ -278,7 +276,7 @@ def _first_two(
     return first, second
 
 
-def _given(site: _Site, wanted: DrainHoles) -> _Holes:
+def _given_holes(site: _Site, wanted: DrainHoles) -> _Holes:
     """The holes at given places."""
     if not wanted.places:
         return _Holes.none()

@@ -88,7 +88,7 @@ def finish(
     surface: TrimmedSurface,
     quality: Quality,
     monitor: Monitor,
-    moved: bool,
+    deformed: bool,
     cut: bool = True,
     least: float = 0.0,
 ) -> tuple[TrimmedSurface, Quality, tuple[str, ...]]:
@@ -98,7 +98,7 @@ def finish(
         surface: closed.
         quality: of it.
         monitor: for progress and cancel.
-        moved: whether the octants' vertices are elsewhere than they were meshed.
+        deformed: whether the octants' vertices are elsewhere than they were meshed.
         cut: whether a wall has cut them; what is neither needs no look.
         least: no shell of it encloses less, mm3; 0 where that is not known.
 
@@ -112,7 +112,7 @@ def finish(
         changed = surface.on(apart)
         wider = _with_reached(surface, changed, monitor)
         if wider is not changed:
-            return finish(wider, quality, monitor, moved, cut, least)
+            return finish(wider, quality, monitor, deformed, cut, least)
         surface = changed
         again = _quality_after(mesh, surface, quality, least, monitor)
         if abs(again.volume - quality.volume) > MOST_MOVED * abs(quality.volume):
@@ -120,27 +120,27 @@ def finish(
         refuse_merging(apart)
         quality, least = again, 0.5 * least  # the shells may have lost as much
     straight, place, drawn = surface.mesh, None, False
-    if moved or cut:
-        folded = folds_of(surface.mesh, monitor, moved, looks=surface.looks)
+    if deformed or cut:
+        folded = folds_of(surface.mesh, monitor, deformed, looks=surface.looks)
         if len(folded.pairs) and surface.octants is not None:  # which may have to go along
             beside = len(surface.mesh.triangles)
             surface = _with_octants_about(surface, folded.pairs, monitor)
             folded = folded.followed_by(len(surface.mesh.triangles) - beside)
         before = surface.mesh
-        straight, place = resolve_fold_crossings(before, monitor, moved, folded)
+        straight, place = resolve_fold_crossings(before, monitor, deformed, folded)
         if place is not None:
-            surface, straight, place = thinned(surface, folded, straight, place, monitor, moved)
+            surface, straight, place = thinned(surface, folded, straight, place, monitor, deformed)
         drawn = straight is not before
     if drawn:
         changed = surface.on(straight)
         wider = _with_reached(surface, changed, monitor)
         if wider is not changed:
-            return finish(wider, quality, monitor, moved, cut, least)
+            return finish(wider, quality, monitor, deformed, cut, least)
         surface = changed
         quality = _quality_after(before, surface, quality, least, monitor)
     refuse_no_solid(quality)
     notes = () if place is None else (_touching(place),)
-    if not moved:
+    if not deformed:
         return surface, quality, notes
     met = monitor.call(lambda: surface.met_by(Lines(surface.bounds)))
     share = met.odd / quality.volume
@@ -173,7 +173,7 @@ def thinned(
     straight: TriangleMesh,
     place: Floats,
     monitor: Monitor,
-    moved: bool,
+    deformed: bool,
 ) -> tuple[TrimmedSurface, TriangleMesh, Floats | None]:
     """A surface without the slivers about facets that cross, if nothing crosses then.
 
@@ -183,7 +183,7 @@ def thinned(
         straight: its mesh as far as it could be drawn apart.
         place: (3,) where that still crosses, mm.
         monitor: for cancel.
-        moved: as of `finish`.
+        deformed: as of `finish`.
 
     Returns:
         The surface; its mesh, drawn apart; and where that still crosses.
@@ -199,8 +199,8 @@ def thinned(
             changed = changed.with_octants(near, monitor)
         whole = changed.mesh
         new = np.pad(new, (0, len(whole.triangles) - len(new)))
-        folded_now = folds_of(whole, monitor, moved, new)
-        apart, left = resolve_fold_crossings(whole, monitor, moved, folded_now)
+        folded_now = folds_of(whole, monitor, deformed, new)
+        apart, left = resolve_fold_crossings(whole, monitor, deformed, folded_now)
         if left is None:
             return changed, apart, None
     return surface, straight, place
@@ -211,7 +211,7 @@ def _with_octants_about(surface: TrimmedSurface, pairs: Ints, monitor: Monitor) 
     if surface.octants is None:
         return surface
     corners = surface.mesh.vertices[surface.mesh.triangles[np.unique(pairs)]]
-    far = ABOUT * surface.octants.laid.layout.grid.cell_size
+    far = ABOUT * surface.octants.lattice.layout.grid.cell_size
     low, high = corners.min(axis=1) - far, corners.max(axis=1) + far
     near = surface.octants.reached(np.stack([low, high, low], axis=1))
     return surface.with_octants(near, monitor)

@@ -119,11 +119,11 @@ def cut_group(group: Group, monitor: Monitor | None = None) -> Piece:
         piece = _cut_by_library(group, surfaces, len(caps), capped(), asked, monitor)
     if piece.defect:
         return piece
-    piece = _tidied(piece, group.precision, asked)
-    return piece if group.alone or not group.precision else _looked_at(piece, group, asked)
+    piece = _tidy(piece, group.precision, asked)
+    return piece if group.alone or not group.precision else _look_at_piece(piece, group, asked)
 
 
-def _looked_at(piece: Piece, group: Group, monitor: Monitor) -> Piece:
+def _look_at_piece(piece: Piece, group: Group, monitor: Monitor) -> Piece:
     """The piece with what its own triangles tell of slivers, of folds and of facets that cross."""
     mesh, placed, step = piece.mesh, group.placed, group.precision / STEPS
     layout, far = placed.layout, CLEAR_STEPS * step
@@ -164,7 +164,7 @@ def _looked_at(piece: Piece, group: Group, monitor: Monitor) -> Piece:
     return replace(piece, looks=looks)
 
 
-def _tidied(piece: Piece, precision: float, monitor: Monitor) -> Piece:
+def _tidy(piece: Piece, precision: float, monitor: Monitor) -> Piece:
     """The piece without slivers where it meets no other one, if nothing crosses then."""
     smooth, new, was = without_inner_slivers(piece.mesh, piece.rim, precision)
     if not new.any() or monitor.call(lambda: crossing_triangles(smooth, new, precision)).any():

@@ -89,7 +89,7 @@ def clear(
     # A void inside a loose piece goes with it.
     inside_loose = np.zeros(len(volume), bool)
     if (loose & ~tiny).any() and (void & ~tiny).any():
-        inside_loose = void & _enclosed(mesh, label, loose & ~tiny, void & ~tiny)
+        inside_loose = void & _find_enclosed(mesh, label, loose & ~tiny, void & ~tiny)
     gone = loose | tiny | inside_loose
     goes = gone[label]
     rest = compact(TriangleMesh(mesh.vertices, mesh.triangles[~goes]), owned=True)
@@ -106,7 +106,7 @@ def clear(
     )
 
 
-def _enclosed(
+def _find_enclosed(
     mesh: TriangleMesh,
     label: NDArray[np.int32],
     loose: NDArray[np.bool_],

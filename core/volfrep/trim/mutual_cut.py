@@ -154,20 +154,22 @@ class _Side:
         self, vertices: Floats, wanted: Bools, stays: Callable[[Ints], Bools]
     ) -> tuple[Ints, Ints]:
         """What is left of wanted facets, and the facets that it was."""
-        kept = self._kept(len(vertices), stays, wanted)
+        kept = self._find_kept(len(vertices), stays, wanted)
         uncut = wanted.copy()
         uncut[self.cut] = False
         uncut &= kept[self.triangles[:, 0]]
         whole = np.flatnonzero(uncut)
         facet, start, end = self._outlines(kept)
         some = wanted[facet]
-        pieces, source = _filled(vertices, self.triangles, facet[some], start[some], end[some])
+        pieces, source = _fill_outlines(
+            vertices, self.triangles, facet[some], start[some], end[some]
+        )
         return (
             np.concatenate([self.triangles[whole], pieces]),
             np.concatenate([whole, source]),
         )
 
-    def _kept(self, count: int, stays: Callable[[Ints], Bools], wanted: Bools) -> Bools:
+    def _find_kept(self, count: int, stays: Callable[[Ints], Bools], wanted: Bools) -> Bools:
         """(count,) bool, which vertices of linked facets stay."""
         open_edges = self.edge[np.diff(self.first) == 0]
         rows = self.linked.copy()
@@ -223,7 +225,7 @@ class _Side:
         )
 
 
-def _filled(
+def _fill_outlines(
     vertices: Floats, triangles: Ints, facet: Ints, start: Ints, end: Ints
 ) -> tuple[Ints, Ints]:
     """Triangles within outlines in facets, and the facet of each."""
@@ -245,7 +247,7 @@ def _filled(
     rest = np.flatnonzero(~alone | (length > 4))
     rest = rest[np.argsort(owner[rest], kind="stable")]
     row, place = spread(length[rest])
-    more, theirs = _triangulated(
+    more, theirs = _triangulate(
         vertices, triangles, owner[rest], length[rest], corner[begin[rest][row] + place]
     )
     return np.concatenate([*result, more]), np.concatenate([*source, theirs])
@@ -302,7 +304,7 @@ def _worth(points: Floats, up: Floats) -> Floats:
     return result
 
 
-def _triangulated(
+def _triangulate(
     vertices: Floats, triangles: Ints, owner: Ints, length: Ints, corner: Ints
 ) -> tuple[Ints, Ints]:
     """Triangles within polygons with holes; outlines of a facet follow each other."""

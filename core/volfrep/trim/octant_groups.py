@@ -49,7 +49,7 @@ class Groups:
     """Which group every octant at the wall and every triangle of the wall belongs to.
 
     Attributes:
-        laid: all the octants.
+        lattice: all the octants.
         boundary: closed mesh, mm; of small triangles where groups meet.
         places: (k, 3) the octants.
         low, high: (k, 3) corners of their boxes, mm.
@@ -60,7 +60,7 @@ class Groups:
         precision: slivers thinner than that go, mm.
     """
 
-    laid: PlacedLattice
+    lattice: PlacedLattice
     boundary: TriangleMesh
     places: Ints
     low: Floats
@@ -78,7 +78,7 @@ class Groups:
         left, number = np.unique(number, return_inverse=True)
         triangle = np.where(self.triangle < 0, -1, number[self.triangle])
         groups = Groups(
-            self.laid, self.boundary, self.places, self.low, self.high, number[self.octant],
+            self.lattice, self.boundary, self.places, self.low, self.high, number[self.octant],
             triangle, self.touch, len(left), self.precision,
         )  # fmt: skip
         return groups, number
@@ -86,12 +86,12 @@ class Groups:
     @cached_property
     def _by_triangle(self) -> tuple[Ints, Ints]:
         """What touches, by the triangle's group."""
-        return _sorted(self.triangle[self.touch[:, 1]], self.count)
+        return _sort_groups(self.triangle[self.touch[:, 1]], self.count)
 
     @cached_property
     def _by_octant(self) -> tuple[Ints, Ints]:
         """What touches, by the octant's group."""
-        return _sorted(self.octant[self.touch[:, 0]], self.count)
+        return _sort_groups(self.octant[self.touch[:, 0]], self.count)
 
     @property
     def untouched(self) -> Piece:
@@ -117,10 +117,10 @@ class Groups:
             # be divided otherwise.
             boxes = np.array([self._box(*each) for each in zip(which, octants, owned, strict=True)])
             boundaries = _near(self.boundary, boxes, owned, monitor)
-        going = self.laid.kept.border | self.laid.kept.inside
+        going = self.lattice.kept.border | self.lattice.kept.inside
         for k, boundary, own_boundary in boundaries:
             group, rows = int(which[k]), octants[k]
-            placed, box = self.laid.cutting(self.places[rows])
+            placed, box = self.lattice.cutting(self.places[rows])
             low = np.array([part.start or 0 for part in box])
             mine = np.zeros(placed.layout.grid.kind.shape, bool)
             mine[tuple((self.places[self.octant == group] - low).T)] = True
@@ -146,7 +146,7 @@ class Groups:
         """
         chosen = self.octant == group
         chosen[self.touch[_of(self._by_triangle, group), 0]] = True
-        border, periodic = self.laid.kept.border, self.laid.layout.grid.periodic
+        border, periodic = self.lattice.kept.border, self.lattice.layout.grid.periodic
         if self.count > 1:
             low, high = self.places[chosen].min(axis=0), self.places[chosen].max(axis=0) + 1
             low, high = np.maximum(low - 1, 0), np.minimum(high + 1, border.shape)
@@ -172,7 +172,7 @@ class Groups:
         return np.array([low - beyond, high + beyond])
 
 
-def _sorted(group: Ints, count: int) -> tuple[Ints, Ints]:
+def _sort_groups(group: Ints, count: int) -> tuple[Ints, Ints]:
     """The rows of groups one after the other, and where each group's begin, (count + 1,)."""
     order = np.argsort(group, kind="stable")
     return order, np.searchsorted(group[order], np.arange(count + 1))
@@ -184,33 +184,33 @@ def _of(rows: tuple[Ints, Ints], group: int) -> Ints:
 
 
 def group_octants(
-    laid: PlacedLattice, boundary: TriangleMesh, monitor: Monitor, precision: float = 0.0
+    lattice: PlacedLattice, boundary: TriangleMesh, monitor: Monitor, precision: float = 0.0
 ) -> Groups:
     """Octants and wall in groups.
 
     Args:
-        laid: all the octants.
+        lattice: all the octants.
         boundary: closed mesh of what the lattice fills.
         monitor: for progress and cancel.
         precision: slivers thinner than that go, mm.
     """
-    layout = laid.layout
-    if _triangles(layout, np.argwhere(laid.kept.border)).sum() <= GROUP_TRIANGLES:
-        places = np.argwhere(laid.kept.border)
+    layout = lattice.layout
+    if _triangles(layout, np.argwhere(lattice.kept.border)).sum() <= GROUP_TRIANGLES:
+        places = np.argwhere(lattice.kept.border)
         nowhere = np.zeros((0, 3))
         return Groups(
-            laid, boundary, places, nowhere, nowhere, np.zeros(len(places), np.int64),
+            lattice, boundary, places, nowhere, nowhere, np.zeros(len(places), np.int64),
             np.zeros(len(boundary.triangles), np.int64), np.zeros((0, 2), np.int64), 1,
             precision,
         )  # fmt: skip
-    places, low, high = laid.boxes(laid.kept.border, monitor)
+    places, low, high = lattice.boxes(lattice.kept.border, monitor)
     edge = _edge(low, high)
-    octant, count = _halved(places, _triangles(layout, places))
+    octant, count = _halve(places, _triangles(layout, places))
     fine = _split(boundary, LONGEST_SIDE * edge, *_bounds(low, high, octant, count))
     touch = _touching(low, high, fine, NEAR * edge)
     return Groups(
-        laid, fine, places, low, high, octant, _owners(touch, octant, count, len(fine.triangles)),
-        touch, count, precision,
+        lattice, fine, places, low, high, octant,
+        _owners(touch, octant, count, len(fine.triangles)), touch, count, precision,
     )  # fmt: skip
 
 
@@ -226,7 +226,7 @@ def _triangles(layout: Layout, places: Ints) -> Ints:
     return result
 
 
-def _halved(places: Ints, weight: Ints) -> tuple[Ints, int]:
+def _halve(places: Ints, weight: Ints) -> tuple[Ints, int]:
     """The group of each octant, by halves along the longest side, and how many there are."""
     group = np.zeros(len(places), np.int64)
     count, waiting = 0, [np.arange(len(places))]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Octants laid where their struts are: numbered at once, with coordinates for those asked for."""
+"""Octants placed where their struts are: numbered at once, with coordinates for those asked for."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class PlacedLattice(Placed):
         return self.points is None and agree_on_faces(self.layout)
 
     @cached_property
-    def moved(self) -> DeformedOctants | None:
+    def deformed(self) -> DeformedOctants | None:
         """What is found of octants inside, and those beside them, that do not keep their places."""
         if self.points is None:
             return None
@@ -98,12 +98,12 @@ class PlacedLattice(Placed):
 
     @cached_property
     def unsound(self) -> Bools:
-        """(nx, ny, nz) bool, octants that were moved with a fault in them, and those about them."""
-        if self.moved is None:
+        """(nx, ny, nz) bool, deformed octants with a fault in them, and those about them."""
+        if self.deformed is None:
             return np.zeros(self.kept.inside.shape, bool)
         from scipy import ndimage  # slow to import
 
-        wide = wrapped(self.moved.unsound, self.periodic)
+        wide = wrapped(self.deformed.unsound, self.periodic)
         return np.asarray(ndimage.binary_dilation(wide, np.ones((3, 3, 3), bool))[1:-1, 1:-1, 1:-1])
 
     @property
@@ -135,28 +135,28 @@ class InnerOctants:
     """Octants that belong to a surface without being in its mesh.
 
     Attributes:
-        laid: all the octants.
+        lattice: all the octants.
         where: (nx, ny, nz) bool, these.
     """
 
-    laid: PlacedLattice
+    lattice: PlacedLattice
     where: Bools
 
     @cached_property
     def layout(self) -> Layout:
         """They alone, numbered as among all."""
-        return self.laid.alone(self.where)
+        return self.lattice.alone(self.where)
 
     @cached_property
     def pieces(self) -> CertifiedPieces:
         """What is proved of them by their kinds."""
-        return certify_pieces(self.layout, box(self.layout).mean(axis=0), self.laid.moved)
+        return certify_pieces(self.layout, box(self.layout).mean(axis=0), self.lattice.deformed)
 
     @property
     def sound(self) -> InnerOctants:
         """Those of them in which moving them has left no fault."""
-        wrong = self.where & self.laid.unsound
-        return InnerOctants(self.laid, self.where & ~wrong) if wrong.any() else self
+        wrong = self.where & self.lattice.unsound
+        return InnerOctants(self.lattice, self.where & ~wrong) if wrong.any() else self
 
     @cached_property
     def rim(self) -> Ints:
@@ -166,7 +166,7 @@ class InnerOctants:
     @cached_property
     def rim_points(self) -> Floats:
         """(k, 3) where they are, mm."""
-        return self.laid.coordinates(self.rim.astype(np.int32), self._at_rim, Monitor())
+        return self.lattice.coordinates(self.rim.astype(np.int32), self._at_rim, Monitor())
 
     @cached_property
     def _at_rim(self) -> Bools:
@@ -197,7 +197,7 @@ class InnerOctants:
 
         None where they keep their places.
         """
-        points = self.laid.points
+        points = self.lattice.points
         if points is None:
             return None
         used = np.zeros(len(points), bool)
@@ -211,9 +211,9 @@ class InnerOctants:
     @property
     def bounds(self) -> Floats:
         """(2, 3) of their vertices, mm."""
-        motion = self.laid.motion
-        if self.laid.moved is not None:
-            return box_of(np.concatenate(self._boxes(self.laid.moved)[1:]))
+        motion = self.lattice.motion
+        if self.lattice.deformed is not None:
+            return box_of(np.concatenate(self._boxes(self.lattice.deformed)[1:]))
         if motion.frame is None:
             return motion(box(self.layout))
         farthest = []
@@ -234,12 +234,12 @@ class InnerOctants:
 
     def middle(self, places: Ints) -> Floats:
         """(k, 3) the middles of octants at some places, mm."""
-        grid = self.laid.layout.grid
-        return self.laid.motion(grid.origin + 0.5 * grid.cell_size * (places - 0.5))
+        grid = self.lattice.layout.grid
+        return self.lattice.motion(grid.origin + 0.5 * grid.cell_size * (places - 0.5))
 
     def caps(self, monitor: Monitor) -> Caps:
         """What closes the solid that follows on them, seen from there."""
-        layout, others = self.laid.layout, (self.laid.layout.grid.kind >= 0) & ~self.where
+        layout, others = self.lattice.layout, (self.lattice.layout.grid.kind >= 0) & ~self.where
         every, at = [], np.zeros_like(others)
         for axis in range(3):
             for high in (False, True):
@@ -247,24 +247,24 @@ class InnerOctants:
                 missing &= ~neighbour_missing(layout.grid, others | self.where, axis, high)
                 every.append(facets(layout, monitor, missing, (axis, high)))
                 at |= missing
-        mesh, number = self.laid.mesh(np.concatenate(every), at, monitor)
+        mesh, number = self.lattice.mesh(np.concatenate(every), at, monitor)
         row = np.minimum(np.searchsorted(self.rim, number), len(self.rim) - 1)
         return Caps(mesh, np.where(self.rim[row] == number, row, -1))
 
-    def _boxes(self, moved: DeformedOctants) -> tuple[Ints, Floats, Floats]:
+    def _boxes(self, deformed: DeformedOctants) -> tuple[Ints, Floats, Floats]:
         """(k, 3) places of those with a surface, and (k, 3) corners of the boxes about them, mm."""
         found = []
         for number, (key, place) in enumerate(
             zip(self.layout.grid.keys, self.layout.places, strict=True)
         ):
             if len(self.layout.octants[key].triangles):
-                found.append((place, *moved.boxes(number, place)))
+                found.append((place, *deformed.boxes(number, place)))
         places, low, high = (np.concatenate(each) for each in zip(*found, strict=True))
         return places, low, high
 
-    def _reached_boxes(self, moved: DeformedOctants, corners: Floats) -> Bools:
-        """`reached` of octants that were moved: those whose boxes meet those of triangles."""
-        places, low, high = self._boxes(moved)
+    def _boxes_reached(self, deformed: DeformedOctants, corners: Floats) -> Bools:
+        """`reached` of deformed octants: those whose boxes meet those of triangles."""
+        places, low, high = self._boxes(deformed)
         result = np.zeros(self.where.shape, bool)
         if len(places) and len(corners):
             least, most = corners.min(axis=1), corners.max(axis=1)
@@ -274,11 +274,11 @@ class InnerOctants:
 
     def reached(self, corners: Floats) -> Bools:
         """(nx, ny, nz) bool, those of them that (k, 3, 3) triangles reach into."""
-        if self.laid.moved is not None:
-            return self._reached_boxes(self.laid.moved, corners)
-        grid = self.laid.layout.grid
+        if self.lattice.deformed is not None:
+            return self._boxes_reached(self.lattice.deformed, corners)
+        grid = self.lattice.layout.grid
         # Octant 0 lies on the low side of the grid's corner.
-        places = (self.laid.motion.back(corners) - grid.origin) / (0.5 * grid.cell_size) + 1.0
+        places = (self.lattice.motion.back(corners) - grid.origin) / (0.5 * grid.cell_size) + 1.0
         limit = np.array(self.where.shape)
         low = np.clip(np.floor(places.min(axis=1) + REACH).astype(np.int64), 0, limit)
         high = np.clip(np.ceil(places.max(axis=1) - REACH).astype(np.int64), 0, limit)
@@ -311,7 +311,7 @@ def lay(
     place: Callable[[Layout], Deformed],
     monitor: Monitor,
 ) -> PlacedLattice:
-    """The octants laid where the struts are; with more of them, where struts reach far out.
+    """The octants placed where the struts are; with more of them, where struts reach far out.
 
     Args:
         first: the octants within the margin, and their meshes.

@@ -80,7 +80,7 @@ def prune(
     """The lattice of the active cells without the struts that its boundary has taken away.
 
     Args:
-        padded: the cells that it is laid on.
+        padded: the cells that it is placed on.
         cell: the unit cell.
         active: (nx, ny, nz) bool.
         struts: how thick they are.

@@ -75,7 +75,7 @@ def chosen_octants(
 
 
 def cut_lattice(
-    laid: PlacedLattice,
+    lattice: PlacedLattice,
     solid: TriangleMesh,
     domain: Domain,
     octant_spec: OctantSpec,
@@ -90,7 +90,7 @@ def cut_lattice(
     """The part or the lattice, without loose pieces and slivers, and its quality.
 
     Args:
-        laid: the octants.
+        lattice: the octants.
         solid: the part, mm.
         domain: what the lattice fills; its wall cuts it.
         octant_spec: what the octants were meshed for.
@@ -107,10 +107,10 @@ def cut_lattice(
 
     def cut() -> Trimmed:
         found = trim(
-            domain.boundary, laid, cavity=with_skin, monitor=monitor, executor=executor,
+            domain.boundary, lattice, cavity=with_skin, monitor=monitor, executor=executor,
             precision=shortest_edge(solid), ahead=ahead,
         )  # fmt: skip
-        unproved = _to_look_at(laid, domain.boundary)
+        unproved = _to_look_at(lattice, domain.boundary)
         if not unproved.any():
             return found
         surface = found.surface.with_octants(unproved, monitor)
@@ -189,7 +189,7 @@ def cleared_cut(
         volume_removed=cleared.volume_removed + lost,
     )
     if domain.openings is not None:
-        return _opened(
+        return _open_faces(
             cleared, solid, domain, domain.openings, smallest, with_skin, keep_pieces, monitor
         )
     if not with_skin:
@@ -207,19 +207,19 @@ def cleared_cut(
     )
 
 
-def _to_look_at(laid: PlacedLattice, boundary: TriangleMesh) -> Bools:
+def _to_look_at(lattice: PlacedLattice, boundary: TriangleMesh) -> Bools:
     """(nx, ny, nz) bool, octants inside that are not right without a look at their triangles.
 
     Of the others files keep the vertices apart, and from what is new on the wall, and the surface
     turns back nowhere.
     """
-    inside, bounds = laid.kept.inside, boundary.bounds
-    if not laid.clearance > edge_within(bounds):
+    inside, bounds = lattice.kept.inside, boundary.bounds
+    if not lattice.clearance > edge_within(bounds):
         return inside
-    if laid.moved is not None:
-        return np.asarray(laid.unsound & inside, np.bool_)
-    half = 0.5 * laid.layout.grid.cell_size
-    if laid.is_proved_by_kind and keeps_corners(laid.octants.values(), half, bounds):
+    if lattice.deformed is not None:
+        return np.asarray(lattice.unsound & inside, np.bool_)
+    half = 0.5 * lattice.layout.grid.cell_size
+    if lattice.is_proved_by_kind and keeps_corners(lattice.octants.values(), half, bounds):
         return np.zeros_like(inside)
     return inside
 
@@ -252,7 +252,7 @@ def drained_part(
     return found, replace(drained, surface=rest.surface)
 
 
-def _opened(
+def _open_faces(
     cleared: Cleared,
     solid: TriangleMesh,
     domain: Domain,
@@ -298,7 +298,7 @@ def _on_skin(
 
 
 def uncut_lattice(
-    laid: PlacedLattice,
+    lattice: PlacedLattice,
     solid: TriangleMesh,
     octant_spec: OctantSpec,
     monitor: Monitor,
@@ -306,8 +306,8 @@ def uncut_lattice(
     keep_pieces: bool = False,
 ) -> Cleared:
     """The lattice of whole cells as it is, without loose pieces, and its quality."""
-    everywhere = laid.kept.grid.kind >= 0
-    mesh = laid.mesh(laid.facets(everywhere, monitor), everywhere, monitor)[0]
+    everywhere = lattice.kept.grid.kind >= 0
+    mesh = lattice.mesh(lattice.facets(everywhere, monitor), everywhere, monitor)[0]
     surface = tidy(TrimmedSurface(mesh), shortest_edge(mesh), monitor)
     bodies = 0 if keep_pieces else max(1, inspect(solid).quality.bodies)
     return clear(surface, smallest_shell(octant_spec), monitor, bodies=bodies)

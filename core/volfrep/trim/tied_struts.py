@@ -71,7 +71,7 @@ def with_grazing(
     is_new[new] = True
     low, high = clipped.low.copy(), clipped.high.copy()
     radii = frame.radii.copy()
-    for side, node, is_end in _lost_ends(clipped, lattice):
+    for side, node, is_end in _find_lost_ends(clipped, lattice):
         at = frame.nodes[struts[:, side]]
         away = np.linalg.norm(lattice.nodes[node] - at, axis=1)
         onto = is_end & is_new[node] & (away < 2.0 * radii[:, side])
@@ -84,7 +84,7 @@ def with_grazing(
         np.concatenate([frame.joint_radii, lattice.joint_radii[new]]),
     )
     number = len(added)
-    return _used(
+    return _drop_unused(
         Clipped(
             joined,
             np.concatenate([clipped.on_boundary, np.ones(len(new), bool)]),
@@ -109,7 +109,7 @@ def drawn_together(clipped: Clipped, lattice: Wireframe) -> Clipped:
     struts = frame.struts.astype(np.int64)
     found = [
         np.stack([struts[is_end, side], node[is_end]], axis=1)
-        for side, node, is_end in _lost_ends(clipped, lattice)
+        for side, node, is_end in _find_lost_ends(clipped, lattice)
     ]
     end, lost = np.concatenate(found).T
     order = np.argsort(lost, kind="stable")
@@ -122,7 +122,7 @@ def drawn_together(clipped: Clipped, lattice: Wireframe) -> Clipped:
     reach = frame.joint_radii[end]
     near = gap < reach[one] + reach[two]
     pairs = np.stack([end[one[near]], end[two[near]]], axis=1)
-    return _welded(clipped, pairs)
+    return _weld(clipped, pairs)
 
 
 def tied(clipped: Clipped) -> Clipped:
@@ -163,7 +163,7 @@ def tied(clipped: Clipped) -> Clipped:
         np.concatenate([split.high, share[between[:, 0]]]),
         split.warnings,
     )
-    return _welded(more, rows[~apart])
+    return _weld(more, rows[~apart])
 
 
 def groups_of(frame: Wireframe) -> Ints:
@@ -223,7 +223,7 @@ def _nearest_places(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats,
     return np.stack([s, t], axis=1), np.asarray(gap)
 
 
-def _lost_ends(clipped: Clipped, lattice: Wireframe) -> tuple[tuple[int, Ints, Bools], ...]:
+def _find_lost_ends(clipped: Clipped, lattice: Wireframe) -> tuple[tuple[int, Ints, Bools], ...]:
     """For both sides: the whole strut's node there (m,), and which pieces end on the way to it."""
     owner = clipped.owner
     order = np.lexsort((clipped.low, owner))
@@ -238,7 +238,7 @@ def _lost_ends(clipped: Clipped, lattice: Wireframe) -> tuple[tuple[int, Ints, B
     )
 
 
-def _welded(clipped: Clipped, pairs: Ints) -> Clipped:
+def _weld(clipped: Clipped, pairs: Ints) -> Clipped:
     """Nodes (p, 2) made one, in the middle of all that become one; no strut joins it to itself."""
     if not len(pairs):
         return clipped
@@ -254,7 +254,7 @@ def _welded(clipped: Clipped, pairs: Ints) -> Clipped:
     made = Wireframe(
         nodes / number[:, None], struts[kept].astype(np.int32), frame.radii[kept], joints
     )
-    return _used(
+    return _drop_unused(
         Clipped(
             made, at_boundary, clipped.owner[kept], clipped.low[kept], clipped.high[kept],
             clipped.warnings,
@@ -319,7 +319,7 @@ def _places_of(clipped: Clipped) -> tuple[Ints, Floats]:
     return owner, share
 
 
-def _used(clipped: Clipped) -> Clipped:
+def _drop_unused(clipped: Clipped) -> Clipped:
     """Without the nodes of no strut."""
     frame = clipped.wireframe
     used, rows = np.unique(frame.struts, return_inverse=True)

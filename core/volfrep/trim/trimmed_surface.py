@@ -82,7 +82,7 @@ class TrimmedSurface:
         inner = self.octants
         if inner is None or not where.any():
             return self
-        more, number = inner.laid.mesh(inner.laid.facets(where, monitor), where, monitor)
+        more, number = inner.lattice.mesh(inner.lattice.facets(where, monitor), where, monitor)
         # Vertices that both parts have are the mesh's.
         place = np.minimum(np.searchsorted(number, inner.rim), len(number) - 1)
         shared = (number[place] == inner.rim) & (self._rim_rows >= 0)
@@ -96,7 +96,9 @@ class TrimmedSurface:
         )
         rest = inner.where & ~where
         looks = self.looks and self.looks.padded(0, len(more.triangles))
-        return TrimmedSurface(mesh, InnerOctants(inner.laid, rest) if rest.any() else None, looks)
+        return TrimmedSurface(
+            mesh, InnerOctants(inner.lattice, rest) if rest.any() else None, looks
+        )
 
     def met_by(self, lines: Lines) -> Windings:
         """What lines meet of it."""
@@ -105,7 +107,7 @@ class TrimmedSurface:
     def _near(self, lines: Lines) -> Iterator[Floats]:
         """(k, 3, 3) the corners of triangles, some at a time, without many that no line meets."""
         inner = self.octants
-        points = None if inner is None else inner.laid.points
+        points = None if inner is None else inner.lattice.points
         mesh = self.mesh if points is not None else self.whole(Monitor())
         yield from lines.near(mesh.vertices, mesh_blocks(mesh))
         if inner is not None and points is not None:
@@ -143,7 +145,7 @@ class TrimmedSurface:
             raise RuntimeError("the octants inside do not fit to what the wall has cut")
         pieces, cut, count = inner.pieces, found.quality, len(found.volume)
         # Two parts enclose their volume about one point only together.
-        own = pieces.volume_about(inner.laid.motion.back(cut.bounds.mean(axis=0)))
+        own = pieces.volume_about(inner.lattice.motion.back(cut.bounds.mean(axis=0)))
         shells, label = pieces_of(
             found.shell[self._rim_triangles].astype(np.int64),
             count + pieces.piece_at_rim,
@@ -244,7 +246,7 @@ def _repeats(triangles: NDArray[np.int32]) -> bool:
 
 def equal_rows(points: Floats, among: Floats) -> Ints:
     """(k,) the row of `among` (n, 3) with the very same numbers as each of `points`; -1: none."""
-    ours, theirs = _hashed(points), _hashed(among)
+    ours, theirs = _hash_points(points), _hash_points(among)
     # Most rows end otherwise than all that are looked for, and need no place in an order.
     asked = np.zeros(ASKED, bool)
     asked[ours % ASKED] = True
@@ -266,7 +268,7 @@ def equal_rows(points: Floats, among: Floats) -> Ints:
     return result
 
 
-def _hashed(points: Floats) -> NDArray[np.uint64]:
+def _hash_points(points: Floats) -> NDArray[np.uint64]:
     """(n,) a number for each point, equal where the coordinates are.
 
     Each coordinate is mixed in by the finaliser of SplitMix64 (Steele, Lea and Flood, 2014): cells

@@ -145,21 +145,21 @@ def test_a_volume_that_mending_changed_is_told(monkeypatch):
 @needs_gmsh
 def test_what_gmsh_finds_to_intersect_is_mended_less(monkeypatch):
     said = "Error : Invalid boundary mesh (facet-facet intersection), intersection (1.5,-2,3e-1)"
-    filled, asked = tet_mesh._filled, []
+    filled, asked = tet_mesh._run_gmsh, []
 
     def mend(mesh, _, places):
         asked.append(places)
         return mesh, 0.01
 
     monkeypatch.setattr(tet_mesh, "mend_surface", mend)
-    monkeypatch.setattr(tet_mesh, "_filled", lambda *_: (said, None))
+    monkeypatch.setattr(tet_mesh, "_run_gmsh", lambda *_: (said, None))
     with pytest.raises(VolfrepError, match="facet-facet intersection"):
         tetrahedra(samples.box((4.0, 4.0, 4.0)))
     assert len(asked) == 1 + tet_mesh.GMSH_TRIES
     assert asked[1][0].tolist() == [[1.5, -2.0, 0.3]]
     asked.clear()
     monkeypatch.setattr(
-        tet_mesh, "_filled", lambda *given: filled(*given) if len(asked) > 1 else (said, None)
+        tet_mesh, "_run_gmsh", lambda *given: filled(*given) if len(asked) > 1 else (said, None)
     )
     assert tetrahedra(samples.box((4.0, 4.0, 4.0))).volumes().sum() == pytest.approx(64)
     assert len(asked) == 2

@@ -126,13 +126,13 @@ def test_a_facet_turned_over_its_neighbour_is_put_right(height):
     ring = [[2, 0, 4], [1, 2, 5], [3, 1, 6], [0, 3, 7], [2, 4, 5], [1, 5, 6], [3, 6, 7], [0, 7, 4]]
     turned = np.array([[0, 2, 1], [0, 1, 3], *ring])
     assert remesh.normals(points[turned])[:, 2].min() < 0
-    put_right = well_shaped_module._flipped(points, turned, Tolerance(TOLERANCE))
+    put_right = well_shaped_module._flip(points, turned, Tolerance(TOLERANCE))
     normal = remesh.normals(points[put_right])
     assert normal[:, 2].min() > 0
     assert normal[:, 2].sum() == pytest.approx(remesh.normals(points[turned])[:, 2].sum())
     # A true crease stays.
     points[3, 2] = 0.2
-    assert (well_shaped_module._flipped(points, turned, Tolerance(TOLERANCE)) == turned).all()
+    assert (well_shaped_module._flip(points, turned, Tolerance(TOLERANCE)) == turned).all()
 
 
 @pytest.mark.costly

@@ -10,7 +10,7 @@ import samples
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.process.pool import backend_of, processes
 from volfrep.spatial import regions
-from volfrep.spatial.resolve_crossings import _rounded_crossing
+from volfrep.spatial.resolve_crossings import _crossing_in_file
 from volfrep.util.progress import Monitor
 
 
@@ -28,7 +28,7 @@ def test_regions_are_looked_at_by_workers(monkeypatch: pytest.MonkeyPatch) -> No
     wanted = np.arange(len(mesh.triangles)) % 3 == 0
 
     def found() -> tuple[int, np.ndarray]:
-        parts = list(regions.in_regions(_rounded_crossing, mesh, wanted, 1e-6, monitor))
+        parts = list(regions.in_regions(_crossing_in_file, mesh, wanted, 1e-6, monitor))
         return len(parts), np.unique(np.concatenate(parts), axis=0)
 
     whole, pairs = found()

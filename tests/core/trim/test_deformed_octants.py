@@ -32,10 +32,10 @@ def graded() -> Infill:
     return Infill(samples.box((34.0, 28.0, 28.0)), spec)
 
 
-def laid_of(infill):
+def placed_of(infill):
     """Its octants as they lie in the part, before anything is cut."""
     infill.filling.mesh(is_cut=True)
-    return infill.filling._laid[True]
+    return infill.filling._placed[True]
 
 
 @pytest.mark.costly
@@ -43,7 +43,7 @@ def test_octants_inside_stay_beside_the_mesh():
     surface = graded().part.surface
     assert surface.octants is not None
     assert len(surface.mesh.triangles) < surface.triangles
-    assert not laid_of(graded()).unsound.any()
+    assert not placed_of(graded()).unsound.any()
 
 
 def test_what_is_found_of_moved_octants_is_what_their_triangles_show():
@@ -81,17 +81,17 @@ def test_lines_meet_the_octants_beside_the_mesh():
 
 def moved(change):
     """The octants found to be unsound where some points are changed."""
-    laid = laid_of(graded())
-    points = laid.points.copy()
-    inside = np.argwhere(laid.kept.inside)
+    placed = placed_of(graded())
+    points = placed.points.copy()
+    inside = np.argwhere(placed.kept.inside)
     middle = inside[len(inside) // 2]
     surface = graded().part.surface.octants
-    kind = int(laid.layout.grid.kind[tuple(middle)])
-    octant = laid.octants[laid.layout.grid.keys[kind]]
+    kind = int(placed.layout.grid.kind[tuple(middle)])
+    octant = placed.octants[placed.layout.grid.keys[kind]]
     own = numbers(surface.layout, octant, middle[None])[0]
     inner = own[(octant.places == 1).all(axis=1)]
     change(points, inner)
-    return replace(laid, points=points).moved.unsound, tuple(middle)
+    return replace(placed, points=points).deformed.unsound, tuple(middle)
 
 
 def test_an_octant_whose_facets_fold_is_looked_at():
@@ -123,6 +123,6 @@ def test_unsound_octants_go_into_the_mesh():
 
 
 def test_a_cancel_is_seen_while_octants_are_looked_at():
-    laid = laid_of(graded())
+    placed = placed_of(graded())
     with pytest.raises(Cancelled):
-        _ = replace(laid, monitor=Monitor(lambda *_: False)).moved
+        _ = replace(placed, monitor=Monitor(lambda *_: False)).deformed

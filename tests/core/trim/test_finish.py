@@ -90,7 +90,7 @@ def test_bodies_that_nearly_touch_stay_two_in_every_file(tmp_path, extension, ga
     box = samples.box((10.0, 10.0, 10.0))
     # At the origin float32 tells more apart than decimals do; far from it, less.
     pair = concatenate(box, moved(box, (-10.0 - gap, 0.0, 0.0)), moved(box, (60.0, 70.0, 80.0)))
-    surface, quality, notes = finish(TrimmedSurface(pair), measure(pair), Monitor(), moved=False)
+    surface, quality, notes = finish(TrimmedSurface(pair), measure(pair), Monitor(), deformed=False)
     path = tmp_path / f"a{extension}"
     write_mesh(surface.mesh, path)
     assert shells_read(path) == (quality.bodies, quality.voids, True) == (3, 0, True)
@@ -106,7 +106,7 @@ def test_vertices_that_no_file_can_tell_apart_are_refused_with_their_place():
 def test_what_encloses_nothing_is_refused():
     for mesh in (samples.box().reversed(), concatenate(samples.box(), samples.box().reversed())):
         with pytest.raises(VolfrepError, match="no solid"):
-            finish(TrimmedSurface(moved_apart(mesh)), measure(mesh), Monitor(), moved=False)
+            finish(TrimmedSurface(moved_apart(mesh)), measure(mesh), Monitor(), deformed=False)
 
 
 def moved_apart(mesh):

@@ -70,9 +70,9 @@ def place_cells_into(
     u, v, w = (np.where(CORNERS[:, k] == 1, c, 1.0 - c)
                for k, c in enumerate(cell.nodes.T[:, :, None]))  # fmt: skip
     places = np.einsum("nc,mcd->mnd", u * v * w, at)
-    merged = _merged(places.reshape(-1, 3), same)
-    nodes, struts = _joined(places.reshape(-1, 3), merged, cell, len(boxes))
-    corner_rows = _merged(points, same)[boxes]
+    merged = _merge_near(places.reshape(-1, 3), same)
+    nodes, struts = _join_cells(places.reshape(-1, 3), merged, cell, len(boxes))
+    corner_rows = _merge_near(points, same)[boxes]
     _refuse_misfits(cell, merged.reshape(len(boxes), -1), corner_rows, where)
     made = make_network(nodes, struts, (), where, source, np.tile(cell.widths, len(boxes)))
     return replace(made, cell=cell.name)
@@ -117,8 +117,8 @@ def place_cells_along(
             f"The {where} draws a cell together at ({x:.4g}, {y:.4g}, {z:.4g}): choose faces that "
             "have four sides each and do not meet there."
         )
-    merged = _merged(places, SAME_PLACE * float(length.min()))
-    nodes, struts = _joined(places[inverse.ravel()], merged[inverse.ravel()], cell, total)
+    merged = _merge_near(places, SAME_PLACE * float(length.min()))
+    nodes, struts = _join_cells(places[inverse.ravel()], merged[inverse.ravel()], cell, total)
     made = make_network(nodes, struts, (), where, widths=np.tile(cell.widths, total))
     return replace(made, cell=cell.name)
 
@@ -152,7 +152,7 @@ def layers_on(
         raise VolfrepError(f"The {where} needs one layer at least, not {layers}.")
     points, faces = np.asarray(corners, float), np.asarray(quads, np.int64).reshape(-1, 4)
     span = np.linalg.norm(points[faces[:, 0]] - points[faces[:, 2]], axis=1)
-    rows = _merged(points, SAME_PLACE * float(span.min()))
+    rows = _merge_near(points, SAME_PLACE * float(span.min()))
     _, first = np.unique(rows, return_index=True)
     points, faces = points[first], rows[faces]
     a, b, c, d = (points[faces[:, k]] for k in range(4))
@@ -187,13 +187,13 @@ def _by_cell(cell: UnitCell, count: int) -> Ints:
     return rows
 
 
-def _joined(places: Floats, merged: Ints, cell: UnitCell, count: int) -> tuple[Floats, Ints]:
+def _join_cells(places: Floats, merged: Ints, cell: UnitCell, count: int) -> tuple[Floats, Ints]:
     """Nodes where they first are, and the struts of all cells between them."""
     _, first, rows = np.unique(merged, return_index=True, return_inverse=True)
     return places[first], rows.ravel()[_by_cell(cell, count)]
 
 
-def _merged(points: Floats, same: float) -> Ints:
+def _merge_near(points: Floats, same: float) -> Ints:
     """For each point a number that it shares with all that are nearer than `same` to it."""
     from scipy.spatial import cKDTree  # slow to load, and every job loads this module
 

@@ -85,7 +85,7 @@ def read_network(
     except VolfrepError:
         raise
     except (ValueError, KeyError, IndexError, TypeError, RecursionError) as error:
-        raise VolfrepError(f"The {where} cannot be read: {_said(error)}.") from error
+        raise VolfrepError(f"The {where} cannot be read: {_error_text(error)}.") from error
 
 
 def _holds_lines(file: Path) -> bool:
@@ -134,7 +134,7 @@ def _of_elements(
     return make_network(points, np.unique(edges, axis=0), (), where, source)
 
 
-def _said(error: Exception) -> str:
+def _error_text(error: Exception) -> str:
     text = str(error).strip().rstrip(".")
     return text or type(error).__name__
 

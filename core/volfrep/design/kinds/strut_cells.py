@@ -136,7 +136,7 @@ def triangles_of_struts(spec: SpecFields, cell: UnitCell, shares: Floats) -> flo
     radius = spec.template_radius
     ends = cell.nodes[cell.struts]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) * spec.cell_size
-    bare = np.maximum(length - _buried(cell) * radius, SHORTEST_BARE * length)
+    bare = np.maximum(length - _buried_length(cell) * radius, SHORTEST_BARE * length)
     edge = min(spec.cell_size / spec.kind.facets_along_cell, LONGEST_EDGE * radius)
     around = 2.0 * np.pi * radius / (np.sqrt(3.0) / 4.0 * edge**2)
     facets: Floats = IN_CREASES * around * bare
@@ -193,7 +193,7 @@ def crossing_struts(cell: UnitCell, radius: float) -> int:
     return count
 
 
-def _buried(cell: UnitCell) -> Floats:
+def _buried_length(cell: UnitCell) -> Floats:
     """(m,) so many radii of each strut lie in others that it meets, at both ends together.
 
     Two struts part where their distance from the node is r / tan(angle / 2).

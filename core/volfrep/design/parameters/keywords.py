@@ -176,7 +176,7 @@ def _value(name: str, value: Any) -> Any:
         if plain is None or (held and not callable(value) and not isinstance(value, bytes)):
             return value
         kind = type(value).__name__
-        raise VolfrepError(f"The parameter '{name}' does not take a {kind}: {_taken(row)}.")
+        raise VolfrepError(f"The parameter '{name}' does not take a {kind}: {_values_taken(row)}.")
     if name == "network" and isinstance(plain, list):
         return value
     if name == "keep_solid" and isinstance(value, (list, tuple)) and any(map(is_dataclass, value)):
@@ -203,7 +203,7 @@ def _is_number(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def _taken(row: Parameter) -> str:
+def _values_taken(row: Parameter) -> str:
     """What a parameter takes, in words."""
     if row.choices:
         return f"choose {', '.join(row.choices)}"

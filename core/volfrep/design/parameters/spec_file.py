@@ -95,10 +95,10 @@ def write_values(values: Mapping[str, Any], path: str | os.PathLike[str]) -> Non
     """
     target = check_writable(path)
     with replacing(target) as file:
-        file.write(_written(values, target.parent).encode())
+        file.write(_spec_text(values, target.parent).encode())
 
 
-def _written(values: Mapping[str, Any], folder: Path) -> str:
+def _spec_text(values: Mapping[str, Any], folder: Path) -> str:
     """The text of a file in a folder for these values."""
     lines = [_HEAD]
     for group in GROUPS:
@@ -107,7 +107,7 @@ def _written(values: Mapping[str, Any], folder: Path) -> str:
             lines += ["", f"# {GROUPS[group].capitalize()}"]
         for parameter in rows:
             value = value_to_json(parameter, values[parameter.name])
-            value = with_paths(parameter.name, value, lambda file: _seen_from(folder, file))
+            value = with_paths(parameter.name, value, lambda file: _relative_path(folder, file))
             lines.append(f"{parameter.name} = {_toml(value)}")
     return "\n".join([*lines, ""])
 
@@ -151,7 +151,7 @@ def is_path(name: str, value: Any) -> bool:
     return name in files or (name == "cell" and str(value).lower().endswith(".json"))
 
 
-def _seen_from(folder: Path, path: str) -> str:
+def _relative_path(folder: Path, path: str) -> str:
     """A path relative to a folder where it lies in it or below, absolute elsewhere."""
     absolute = Path(path).resolve()
     below = folder.resolve()

@@ -356,11 +356,11 @@ def _skin_values(spec: LatticeSpec) -> dict[str, Any]:
     return {
         "open_plane": tuple(planes),
         "skin_face": tuple(own),
-        "keep_solid": tuple(_kept(one) for one in spec.keep_solid),
+        "keep_solid": tuple(_kept_text(one) for one in spec.keep_solid),
     }
 
 
-def _kept(one: KeptFace | KeptBody) -> str | tuple[float, ...]:
+def _kept_text(one: KeptFace | KeptBody) -> str | tuple[float, ...]:
     if isinstance(one, KeptFace):
         return (*_numbers(one.face, "kept solid"), one.distance)
     if not one.source or not is_file(one.source):

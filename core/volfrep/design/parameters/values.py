@@ -81,7 +81,7 @@ def value_from_json(parameter: Parameter, value: Any) -> Any:
             raise VolfrepError(f"{value!r} is neither true nor false.")
         return value
     if isinstance(value, bool) or not isinstance(value, (str, int, float)):
-        raise VolfrepError(f"{value!r} is no {_called(parameter)}.")
+        raise VolfrepError(f"{value!r} is no {_kind_text(parameter)}.")
     if kind in ("integer", "number") or kind in SCALES:
         return _quantity(parameter, value)
     if not isinstance(value, str):
@@ -122,7 +122,7 @@ def _quantity(parameter: Parameter, value: Any) -> float | int:
     if isinstance(value, str):
         match = _QUANTITY.fullmatch(value)
         if match is None:
-            raise VolfrepError(f"'{value}' is no {_called(parameter)}.")
+            raise VolfrepError(f"'{value}' is no {_kind_text(parameter)}.")
         number, unit = float(match[1]), match[2]
     else:
         try:
@@ -172,7 +172,7 @@ def _word(parameter: Parameter, text: str) -> str:
     return word
 
 
-def _called(parameter: Parameter) -> str:
+def _kind_text(parameter: Parameter) -> str:
     """A kind with its article left out, and an example."""
     if parameter.kind in SCALES:
         return f"{parameter.kind} such as 10 or '10 {parameter.unit}'"

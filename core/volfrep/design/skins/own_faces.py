@@ -80,7 +80,7 @@ def thicknesses(
     """
     own = np.full(len(solid.triangles), np.nan)
     for skin in face_skins:
-        own[_found(solid, skin.face, "have a skin of its own")] = skin.thickness
+        own[_find_facets(solid, skin.face, "have a skin of its own")] = skin.thickness
     is_open = None
     if open_faces:
         is_open = open_triangles(solid, open_faces)
@@ -88,13 +88,13 @@ def thicknesses(
     others = [(own == value, float(value)) for value in np.unique(own[own > 0.0])]
     around: dict[float, Bools] = {}
     for one in kept:
-        found = _found(solid, one.face, "be kept solid")
+        found = _find_facets(solid, one.face, "be kept solid")
         around[one.distance] = around.get(one.distance, np.zeros(len(own), bool)) | found
     others += [(faces, distance) for distance, faces in sorted(around.items())]
     return Thicknesses(np.isnan(own), is_open, tuple(others))
 
 
-def _found(solid: TriangleMesh, face: OpenFace, what: str) -> Bools:
+def _find_facets(solid: TriangleMesh, face: OpenFace, what: str) -> Bools:
     found = face.contains(solid)
     if not found.any():
         raise VolfrepError(

@@ -85,7 +85,7 @@ def read_cad(data: bytes, file: Path, monitor: Monitor | None = None) -> Content
         contents = read_ply(mesh.read_bytes(), file.name)
         warned = mesh.with_name(mesh.name + ".invalid").is_file()
         united = mesh.with_name(mesh.name + ".united")
-        notes = _united(united.read_text(encoding="ascii"), file) if united.is_file() else ()
+        notes = _union_notes(united.read_text(encoding="ascii"), file) if united.is_file() else ()
     if warned:
         edges = edges_of(weld_equal(contents.mesh))
         if not (edges.is_manifold and edges.is_closed):
@@ -97,7 +97,7 @@ def read_cad(data: bytes, file: Path, monitor: Monitor | None = None) -> Content
     return Contents(contents.mesh, "mm", notes + ((warning,) if warned else ()))
 
 
-def _united(counts: str, file: Path) -> tuple[str, ...]:
+def _union_notes(counts: str, file: Path) -> tuple[str, ...]:
     """What is to be said of so many solids that became so many."""
     found, left = (int(word) for word in counts.split())
     return (

@@ -54,7 +54,7 @@ def read_off(data: bytes, name: str) -> Contents:
     # Three digits and three blanks at least for each.
     if min(vertices, faces) < 0 or 6 * (vertices + faces) > len(data):
         raise damaged(name, f"{vertices} vertices and {faces} faces do not fit into it")
-    mesh = _loaded(data, "off", name)
+    mesh = _load(data, "off", name)
     if len(mesh.triangles) != faces:
         raise VolfrepError(f"'{name}' holds other faces than triangles: export triangles.")
     return Contents(mesh)
@@ -85,7 +85,7 @@ def read_glb(data: bytes, name: str) -> Contents:
         raise
     except (ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
         raise damaged(name, "its description makes no sense") from error
-    mesh = _loaded(data, "glb", name)
+    mesh = _load(data, "glb", name)
     return Contents(TriangleMesh(times(mesh.vertices, TO_Z_UP), mesh.triangles), "m")
 
 
@@ -124,7 +124,7 @@ def _refuse_unbounded(tree: dict[str, Any], size: int, name: str) -> None:
         )
 
 
-def _loaded(data: bytes, kind: str, name: str) -> TriangleMesh:
+def _load(data: bytes, kind: str, name: str) -> TriangleMesh:
     """What trimesh makes of a file, all its meshes together, no vertex merged."""
     import trimesh  # slow to import
 

@@ -104,7 +104,7 @@ def _read_package(package: zipfile.ZipFile, name: str) -> Contents:
     if not items:
         raise VolfrepError(f"'{name}' builds no object: export the solid again.")
     budget = _Budget(name)
-    meshes = [_assembled(item, objects, budget, 0) for item in items]
+    meshes = [_assemble(item, objects, budget, 0) for item in items]
     return Contents(concatenate(empty_mesh(), *meshes), unit, tuple(budget.warnings))
 
 
@@ -288,7 +288,7 @@ class _Budget:
             )
 
 
-def _assembled(place: _Component, objects: Objects, budget: _Budget, depth: int) -> TriangleMesh:
+def _assemble(place: _Component, objects: Objects, budget: _Budget, depth: int) -> TriangleMesh:
     item = objects.get(place.key)
     if item is None:
         raise damaged(budget.name, f"object '{place.key[1][:40]}' is missing")
@@ -308,7 +308,7 @@ def _assembled(place: _Component, objects: Objects, budget: _Budget, depth: int)
             f"Objects of '{budget.name}' that are no parts (supports, surfaces) were left out."
         )
         return empty_mesh()
-    inside = [_assembled(part, objects, budget, depth + 1) for part in item.components]
+    inside = [_assemble(part, objects, budget, depth + 1) for part in item.components]
     mesh = concatenate(item.mesh, *inside)
     moved = TriangleMesh(times(mesh.vertices, place.matrix[:3]) + place.matrix[3], mesh.triangles)
     mirrors = determinants(place.matrix[:3]) < 0.0

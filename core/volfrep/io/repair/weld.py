@@ -70,20 +70,20 @@ def close_cracks(mesh: TriangleMesh, size: float) -> tuple[TriangleMesh, list[st
     if not left:
         return mesh, []
     done: list[str] = []
-    welded, after = _welded(mesh, ROUNDING * size)
+    welded, after = _weld(mesh, ROUNDING * size)
     if after < left:
         done.append(_closed_text(ROUNDING * size, left - after))
         mesh, left = welded, after
     tolerance = max(2.0 * ROUNDING * size, _widest_gap(mesh, WIDEST_CRACK * size))
     while left and tolerance <= WIDEST_CRACK * size:
-        welded, after = _welded(mesh, tolerance)
+        welded, after = _weld(mesh, tolerance)
         if not after:
             return welded, [*done, _closed_text(tolerance, left)]
         tolerance *= 2.0
     return mesh, done
 
 
-def _welded(mesh: TriangleMesh, tolerance: float) -> tuple[TriangleMesh, int]:
+def _weld(mesh: TriangleMesh, tolerance: float) -> tuple[TriangleMesh, int]:
     """The mesh welded, and how many open sides it has then; as it was where that cannot be."""
     welded = weld_near(mesh, tolerance)
     welded = mesh if welded is None else without_repeats(welded)[0]

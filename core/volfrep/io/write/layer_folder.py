@@ -54,7 +54,7 @@ def replacing_layers(path: str | os.PathLike[str]) -> Iterator[tuple[Path, dict[
         if target.exists() and not target.is_dir():
             raise VolfrepError(f"Cannot write '{target}': it exists and is not a folder.")
         is_new = not target.exists()
-        old = set() if is_new else _written_before(target)
+        old = set() if is_new else _list_written(target)
         target.mkdir(exist_ok=True)
         part = target / f".volfrep-{secrets.token_hex(4)}.part"
         try:
@@ -97,7 +97,7 @@ def _write_table(target: Path, figures: dict[str, Any]) -> None:
         file.write(json.dumps(figures, indent=1).encode() + b"\n")
 
 
-def _written_before(target: Path) -> set[str]:
+def _list_written(target: Path) -> set[str]:
     """The files of layers that the last run wrote, without its table.
 
     Raises:

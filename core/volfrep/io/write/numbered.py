@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A surface as files want it whose triangles name vertices by their numbers: block by block.
 
-Octants beside the mesh come first, numbered as they are laid, so that none of their corners has to
-be looked up; those vertices that the mesh shares with them are the octants'.
+Octants beside the mesh come first, numbered as they are placed, so that none of their corners has
+to be looked up; those vertices that the mesh shares with them are the octants'.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ class Numbered:
 
     Attributes:
         mesh: a part of it, its vertices after those of the octants, its triangles of all.
-        octants: laid, with a number for each vertex; None for none.
+        octants: placed, with a number for each vertex; None for none.
         motion: of the octants.
-        moved: where the vertices of octants are that do not keep their places: points (n, 3), mm,
-            and which of them theirs are; None where they keep them but for the motion.
+        deformed: where the vertices of octants are that do not keep their places: points (n, 3),
+            mm, and which of them theirs are; None where they keep them but for the motion.
         bounds: (2, 3) of the whole, mm.
     """
 
@@ -43,7 +43,7 @@ class Numbered:
     octants: Layout | None
     motion: Motion
     bounds: Floats
-    moved: tuple[Floats, Ints] | None = None
+    deformed: tuple[Floats, Ints] | None = None
 
     @property
     def vertices(self) -> int:
@@ -58,8 +58,8 @@ class Numbered:
 
     def points(self) -> Iterator[Floats]:
         """(k, 3) vertices in their order, mm."""
-        if self.moved is not None:
-            points, rows = self.moved
+        if self.deformed is not None:
+            points, rows = self.deformed
             for some in _blocks(rows):
                 yield points[some]
         elif self.octants is not None:
@@ -109,7 +109,7 @@ def number_vertices(
     fresh = number < 0
     number[fresh] = layout.count + np.arange(int(fresh.sum()))
     rest = TriangleMesh(mesh.vertices[fresh], number.astype(np.int32)[mesh.triangles])
-    return Numbered(rest, layout, inner.laid.motion, given.bounds, inner.deformed_vertices)
+    return Numbered(rest, layout, inner.lattice.motion, given.bounds, inner.deformed_vertices)
 
 
 def _blocks(rows: NDArray[Number]) -> Iterator[NDArray[Number]]:

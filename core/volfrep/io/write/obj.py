@@ -24,7 +24,7 @@ def write_obj(
     """Write an OBJ file, beside the target and then renamed.
 
     Arguments and errors as of `stl.write_stl`; of a surface, octants beside its mesh are written
-    as they are laid.
+    as they are placed.
     """
     given = number_vertices(surface, path, as_text=True)
     vertices = lines("v %.9g %.9g %.9g\n", given.decimals())

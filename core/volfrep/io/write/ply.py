@@ -40,7 +40,7 @@ def write_ply(
     """Write a binary PLY, beside the target and then renamed.
 
     Arguments and errors as of `stl.write_stl`; of a surface, octants beside its mesh are written
-    as they are laid.
+    as they are placed.
     """
     given = number_vertices(surface, path, as_text=False)
     points = (block.astype("<f4") for block in given.points())

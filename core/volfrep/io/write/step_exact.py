@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A lattice as STEP solids with exact surfaces: the text of each kind of joint, laid at its places.
+"""A lattice as STEP solids with exact surfaces: the text of each kind of joint at its places.
 
 Somebody who can fuse exact surfaces (OpenCASCADE, through FreeCAD) makes each kind of joint once
 and writes it as STEP. Here the copies are made in the text: points are moved, directions shared,
@@ -147,7 +147,7 @@ def joint_text(joint: Joint, step: str, shared: Shared) -> JointText:
     for arm in np.flatnonzero(~own).tolist():
         foreign[edges[arm]] = ("edge", arm)
         foreign[uses[edges[arm]][0]] = ("vertex", arm)
-    order = _reached(faces, foreign, body, uses)
+    order = _own_faces(faces, foreign, body, uses)
     local = {number: k for k, number in enumerate(order)}
 
     text: list[str] = []
@@ -257,7 +257,7 @@ def _is_cap(face: int, edges: list[int], body: dict[int, str], uses: dict[int, l
     return len(loop) == 1 and uses[loop[0]][0] in edges
 
 
-def _reached(
+def _own_faces(
     faces: list[int],
     foreign: dict[int, tuple[str, int]],
     body: dict[int, str],

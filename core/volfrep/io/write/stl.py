@@ -164,7 +164,7 @@ def write_facets(
         given: list[tuple[Placed, Future[int]]] = []
         here: Iterable[tuple[int, Block]] = placed()
         if executor is not None:
-            here, calls = _shared_out(here)
+            here, calls = _share_out(here)
             for call in calls:
                 try:
                     given.append((call, executor.submit(write_blocks, file.name, call)))
@@ -199,7 +199,7 @@ def write_facets(
                 note(future.result())
 
 
-def _shared_out(blocks: Iterable[tuple[int, Block]]) -> tuple[Placed, list[Placed]]:
+def _share_out(blocks: Iterable[tuple[int, Block]]) -> tuple[Placed, list[Placed]]:
     """Blocks that stay in this process, and those that go, some at a time."""
     here: Placed = []
     calls: list[Placed] = [[]]

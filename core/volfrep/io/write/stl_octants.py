@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A laid lattice as a binary STL, octant by octant: the whole is never in memory.
+"""A placed lattice as a binary STL, octant by octant: the whole is never in memory.
 
 Each kind of octant is prepared once, its facets with their normals; a copy of it in the file costs
 an addition. `write_stl` writes the same facets from a mesh, in another order.
@@ -40,7 +40,7 @@ _RECORD = np.dtype([("normal", "V12"), ("corners", "V36"), ("attribute", "<u2")]
 def write_octants_stl(
     layout: Layout, path: str | os.PathLike[str], monitor: Monitor | None = None
 ) -> None:
-    """Write the surface of a laid lattice.
+    """Write the surface of a placed lattice.
 
     Args:
         layout: the octants, of which `keeps_corners` is true.
@@ -62,7 +62,7 @@ def write_surface_stl(
     monitor: Monitor | None = None,
     executor: Executor | None = None,
 ) -> None:
-    """Write a surface: the octants inside, as they are laid, then what is in its mesh.
+    """Write a surface: the octants inside, as they are placed, then what is in its mesh.
 
     An octant inside that is in the mesh leaves its place in the file to facets of the mesh.
 
@@ -97,7 +97,7 @@ def places_of(surface: TrimmedSurface) -> InnerOctants | None:
         return None
     from ...trim.placed_lattice import InnerOctants  # of no use to blocks, and slow to import
 
-    inner = InnerOctants(beside.laid, beside.laid.kept.inside).sound
+    inner = InnerOctants(beside.lattice, beside.lattice.kept.inside).sound
     if np.array_equal(beside.where, inner.where):
         return beside
     return inner if left_over(surface, inner) <= len(surface.mesh.triangles) else beside
@@ -161,10 +161,10 @@ class Copies:
 
 def octant_copies(inner: InnerOctants, path: str | os.PathLike[str]) -> Iterator[Copies]:
     """Octants inside a wall, some at a time, for the file at the path."""
-    points = inner.laid.points
+    points = inner.lattice.points
     if points is None:
-        return _copies(inner.layout, inner.laid.motion)
-    return _deformed_copies(inner.layout, points, path)
+        return _copies(inner.layout, inner.lattice.motion)
+    return _copy_deformed(inner.layout, points, path)
 
 
 def _copies(layout: Layout, motion: Motion) -> Iterator[Copies]:
@@ -191,7 +191,7 @@ def _copies(layout: Layout, motion: Motion) -> Iterator[Copies]:
                 yield Copies(at[part], len(order), some, goes=True)
 
 
-def _deformed_copies(
+def _copy_deformed(
     layout: Layout, points: Floats, path: str | os.PathLike[str]
 ) -> Iterator[Copies]:
     """Octants whose numbered vertices were moved to (n, 3) points, mm."""

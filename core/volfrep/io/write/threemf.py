@@ -86,7 +86,7 @@ def write_3mf(
     """Write triangles as a compressed 3MF file, beside the target and then renamed.
 
     Args:
-        surface: in mm; octants beside its mesh are written as they are laid.
+        surface: in mm; octants beside its mesh are written as they are placed.
         path: of the file; an old file stays if anything goes wrong.
         monitor: told the progress, asked for a cancel.
         figures: of the run, kept as metadata: `Description`, which readers show, and others, which

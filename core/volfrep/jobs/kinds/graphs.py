@@ -222,14 +222,14 @@ class GraphBlock(BlockLattice):
     def result(self, monitor: Monitor) -> Result:
         """It as a mesh."""
         corner = np.array(self.spec.origin or (0.0, 0.0, 0.0), float)
-        laid = block_of_cells(self.spec, self.count, corner)
-        return mesh_graph_alone(replace(self.spec, network=laid), monitor=monitor)
+        cells = block_of_cells(self.spec, self.count, corner)
+        return mesh_graph_alone(replace(self.spec, network=cells), monitor=monitor)
 
     def wireframe(self) -> Wireframe:
         """Its nodes and struts."""
         corner = np.array(self.spec.origin or (0.0, 0.0, 0.0), float)
-        laid = block_of_cells(self.spec, self.count, corner)
-        return frame_alone(replace(self.spec, network=laid))[0]
+        cells = block_of_cells(self.spec, self.count, corner)
+        return frame_alone(replace(self.spec, network=cells))[0]
 
     def search(self, target: Target) -> GraphSearch:
         """None.
@@ -482,7 +482,7 @@ def mesh_graph_alone(
     with monitor.stage("lattice", 0.0, 0.8):
         made = mesh_graph(frame, spec, monitor)
     cleared = uncut(made.mesh, smallest_piece(frame), monitor)
-    surface, quality, notes = finish(cleared.surface, cleared.quality, monitor, moved=False)
+    surface, quality, notes = finish(cleared.surface, cleared.quality, monitor, deformed=False)
     hull = made.mesh.bounds
     report = report_of(
         quality, frame, None, None, placement, spec, monitor,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Free-standing blocks of octants: laid, closed on their outside, proved and written."""
+"""Free-standing blocks of octants: placed, closed on their outside, proved and written."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class PlacedBlock:
-    """The octants of a block, laid.
+    """The octants of a block, placed.
 
     Attributes:
         layout: they.
@@ -63,20 +63,20 @@ class OctantBlock(BlockLattice):
     def __init__(self, kind: LatticeKind, count: Sequence[int]) -> None:
         super().__init__(kind, count)
         self.cells, self.placement = block_placement(self.spec.grid, self.count)
-        self._laid: PlacedBlock | None = None
+        self._placed: PlacedBlock | None = None
 
     @abstractmethod
     def lay(self, monitor: Monitor) -> PlacedBlock:
         """Mesh and lay the octants."""
 
-    def _lay_once(self, monitor: Monitor) -> PlacedBlock:
-        if self._laid is None:
-            self._laid = self.lay(monitor)
-        return self._laid
+    def _place_once(self, monitor: Monitor) -> PlacedBlock:
+        if self._placed is None:
+            self._placed = self.lay(monitor)
+        return self._placed
 
     @abstractmethod
-    def placed(self, laid: PlacedBlock, monitor: Monitor) -> Deformed:
-        """Where the vertices of laid octants are."""
+    def place_vertices(self, placed: PlacedBlock, monitor: Monitor) -> Deformed:
+        """Where the vertices of placed octants are."""
 
     @property
     @abstractmethod
@@ -105,27 +105,27 @@ class OctantBlock(BlockLattice):
         """The block, as a mesh."""
         spec, shape = self.spec, self.cells.shape
         refuse_expected(spec, math.prod(shape) * spec.cell_size**3, shape)
-        laid = self._lay_once(monitor)
-        refuse_too_large(spec, laid.layout.grid, laid.layout.octants, None, shape)
-        return self._meshed(laid, monitor)
+        placed = self._place_once(monitor)
+        refuse_too_large(spec, placed.layout.grid, placed.layout.octants, None, shape)
+        return self._mesh_whole(placed, monitor)
 
-    def _meshed(self, laid: PlacedBlock, monitor: Monitor) -> Result:
+    def _mesh_whole(self, placed: PlacedBlock, monitor: Monitor) -> Result:
         """It as a whole, without its specks."""
         # Of no use to a block that goes straight into a file, and slow to import.
         from ...trim.finish import finish
         from ...trim.trimmed_surface import TrimmedSurface
 
-        layout, spec = laid.layout, self.spec
+        layout, spec = placed.layout, self.spec
         with monitor.stage("lattice", 0.4, 0.8):
-            given = self.placed(laid, monitor)
+            given = self.place_vertices(placed, monitor)
             surface = TrimmedSurface(TriangleMesh(given.vertices, facets(layout, monitor)))
-        removed = _removed(laid)
+        removed = _count_removed(placed)
         with monitor.stage("check", 0.8, 1.0):
             measured = measure(surface.mesh, monitor) if spec.is_graded else certify(layout)
             if measured.shells > 1 or measured.degenerate_triangles:
                 from ...trim.loose_pieces import clear, smallest_shell
 
-                smallest = smallest_shell(laid.octant_spec)
+                smallest = smallest_shell(placed.octant_spec)
                 cleared = clear(surface, smallest, monitor, bodies=self.bodies)
                 surface, measured = cleared.surface, cleared.quality
                 removed["pieces_removed"] += cleared.pieces_removed
@@ -140,7 +140,7 @@ class OctantBlock(BlockLattice):
                 surface, measured, notes = finish(
                     surface, measured, monitor, self.is_deformed, cut=False
                 )
-        report = self._report(laid, measured, monitor, removed)
+        report = self._report(placed, measured, monitor, removed)
         return Result(surface, self.frame, with_warnings(report, notes))
 
     def write_stl(self, path: str | os.PathLike[str], monitor: Monitor) -> Report:
@@ -148,32 +148,34 @@ class OctantBlock(BlockLattice):
         if self.spec.is_graded:
             return write_whole(self.result(monitor), path)
         refuse_block(self.cells.shape, BYTES_PER_STREAMED_CELL)
-        laid = self._lay_once(monitor)
+        placed = self._place_once(monitor)
         with monitor.stage("check", 0.4, 0.5):
-            measured = certify(laid.layout)
+            measured = certify(placed.layout)
             refuse_no_solid(measured)
-            streams = measured.shells == 1 and _fits_a_file(laid.layout, measured)
+            streams = measured.shells == 1 and _fits_a_file(placed.layout, measured)
         if streams:
-            monitor.count("triangles laid", laid.layout.triangles)
+            monitor.count("triangles laid", placed.layout.triangles)
             with monitor.stage("write", 0.5, 1.0):
-                write_octants_stl(laid.layout, path, monitor)
-            return self._report(laid, measured, monitor, _removed(laid))
-        refuse_too_large(self.spec, laid.layout.grid, laid.layout.octants, None, self.cells.shape)
-        return write_whole(self._meshed(laid, monitor), path)
+                write_octants_stl(placed.layout, path, monitor)
+            return self._report(placed, measured, monitor, _count_removed(placed))
+        refuse_too_large(
+            self.spec, placed.layout.grid, placed.layout.octants, None, self.cells.shape
+        )
+        return write_whole(self._mesh_whole(placed, monitor), path)
 
     def measured(self, monitor: Monitor) -> Report:
         """Its figures; of equal cells it is not meshed as a whole for them."""
         if self.spec.is_graded:
             return super().measured(monitor)
-        laid = self._lay_once(monitor)
-        return self._report(laid, certify(laid.layout), monitor, _removed(laid))
+        placed = self._place_once(monitor)
+        return self._report(placed, certify(placed.layout), monitor, _count_removed(placed))
 
     def _report(
-        self, laid: PlacedBlock, measured: Quality, monitor: Monitor, removed: Mapping[str, Any]
+        self, placed: PlacedBlock, measured: Quality, monitor: Monitor, removed: Mapping[str, Any]
     ) -> Report:
         report = report_of(
             measured, self.frame, self.cells, self.active, self.placement, self.spec, monitor,
-            domain_volume=self.volume, removed=removed, warnings=laid.notes,
+            domain_volume=self.volume, removed=removed, warnings=placed.notes,
         )  # fmt: skip
         return self.kind.with_target(report)
 
@@ -184,6 +186,6 @@ def _fits_a_file(layout: Layout, measured: Quality) -> bool:
     return agree_on_faces(layout) and keeps_corners(kinds, edge, measured.bounds)
 
 
-def _removed(laid: PlacedBlock) -> dict[str, Any]:
+def _count_removed(placed: PlacedBlock) -> dict[str, Any]:
     """What a block is without."""
-    return {**NOTHING_REMOVED, "pieces_removed": laid.loose}
+    return {**NOTHING_REMOVED, "pieces_removed": placed.loose}

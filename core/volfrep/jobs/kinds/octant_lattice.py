@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Lattices of octants in a part: active cells, each kind of octant meshed once, laid and cut."""
+"""Lattices of octants in a part: active cells, each kind of octant meshed once, placed and cut."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class OctantLattice(PartLattice):
         super().__init__(part)
         self.meshing = self.wanted_meshing()
         self._notes: tuple[str, ...] = ()
-        self._laid: dict[bool, PlacedLattice] = {}
+        self._placed: dict[bool, PlacedLattice] = {}
 
     @abstractmethod
     def wanted_meshing(self) -> OctantSpec:
@@ -51,7 +51,7 @@ class OctantLattice(PartLattice):
         """
 
     @abstractmethod
-    def placed(self, layout: Layout) -> Deformed:
+    def place_vertices(self, layout: Layout) -> Deformed:
         """Where the vertices of numbered octants are in the part."""
 
     @property
@@ -91,7 +91,7 @@ class OctantLattice(PartLattice):
 
     def mesh(self, *, is_cut: bool) -> None:
         """Mesh the octants and lay them in the part, as of a lattice that a wall cuts or not."""
-        if is_cut in self._laid:
+        if is_cut in self._placed:
             return
         spec, part = self.spec, self.part
         spec.kind.refuse_crossing()
@@ -107,10 +107,10 @@ class OctantLattice(PartLattice):
             within = partial(self._within, is_cut)
             first = within(margin)
         with self.monitor.stage("lattice", 0.5, 0.6):
-            self._laid[is_cut] = (
+            self._placed[is_cut] = (
                 in_place(*first, motion)
                 if motion is not None
-                else lay(first, margin, within, self.placed, self.monitor)
+                else lay(first, margin, within, self.place_vertices, self.monitor)
             )
 
     def _within(self, is_cut: bool, margin: float) -> tuple[KeptOctants, dict[OctantKey, Octant]]:
@@ -130,10 +130,10 @@ class OctantLattice(PartLattice):
         """What the wall leaves of the octants, joined to the skin or not."""
         spec, part, keep = self.spec, self.part, self.spec.keep_pieces
         if not (with_skin or spec.ending.is_trimmed):
-            laid = self._laid[False]
-            return uncut_lattice(laid, part.solid, self.meshing, self.monitor, keep_pieces=keep)
+            placed = self._placed[False]
+            return uncut_lattice(placed, part.solid, self.meshing, self.monitor, keep_pieces=keep)
         return cut_lattice(
-            self._laid[True], part.solid, part.domain, self.meshing, self.monitor,
+            self._placed[True], part.solid, part.domain, self.meshing, self.monitor,
             keep_pieces=keep, has_skin=spec.skin is not None, with_skin=with_skin,
             executor=part.executor, ahead=ahead,
         )  # fmt: skip

@@ -70,13 +70,13 @@ class StrutBlock(OctantBlock):
             notes += guard.deviation_warnings(octants, used)
             return PlacedBlock(lay_out(grid, octants), used, notes)
 
-    def placed(self, laid: PlacedBlock, monitor: Monitor) -> Deformed:
-        """Where the vertices of laid octants are."""
+    def place_vertices(self, placed: PlacedBlock, monitor: Monitor) -> Deformed:
+        """Where the vertices of placed octants are."""
         from ...lattice.padded_grid import vertices_of
 
         spec = self.spec
         return vertices_of(
-            laid.layout, lambda: self.graph, spec.unit_cell(), spec.struts, laid.octant_spec,
+            placed.layout, lambda: self.graph, spec.unit_cell(), spec.struts, placed.octant_spec,
             self.placement, monitor,
         )  # fmt: skip
 

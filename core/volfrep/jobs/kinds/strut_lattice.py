@@ -96,7 +96,7 @@ class StrutLattice(OctantLattice):
         self._notes = notes + guard.deviation_warnings(octants, self.meshing)
         return kept, octants
 
-    def placed(self, layout: Layout) -> Deformed:
+    def place_vertices(self, layout: Layout) -> Deformed:
         """Where the vertices of numbered octants are in the part."""
         return vertices_of(
             layout, self._graph, self._cell, self.spec.struts,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""TPMS sheets and skeletons: the octants of one period, laid wherever cells are active."""
+"""TPMS sheets and skeletons: the octants of one period, placed wherever cells are active."""
 
 from __future__ import annotations
 
@@ -198,7 +198,7 @@ class TpmsLattice(OctantLattice):
         self._notes += notes
         return kept, octants
 
-    def placed(self, layout: Layout) -> Deformed:
+    def place_vertices(self, layout: Layout) -> Deformed:
         """Where the vertices of numbered octants are in the part."""
         return place_tpms(layout, self.spec, self.part.placement, self.monitor)
 
@@ -279,9 +279,9 @@ class TpmsBlock(OctantBlock):
         loose = sum(len(closed.loose[key]) * len(place) for key, place in pairs)
         return PlacedBlock(layout, used, notes, loose)
 
-    def placed(self, laid: PlacedBlock, monitor: Monitor) -> Deformed:
-        """Where the vertices of laid octants are."""
-        return place_tpms(laid.layout, self.spec, self.placement, monitor)
+    def place_vertices(self, placed: PlacedBlock, monitor: Monitor) -> Deformed:
+        """Where the vertices of placed octants are."""
+        return place_tpms(placed.layout, self.spec, self.placement, monitor)
 
     def search(self, target: Target) -> LevelSearch:
         """The thickness for which the walls have the density or the mass of a target.

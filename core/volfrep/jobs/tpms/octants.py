@@ -68,7 +68,7 @@ def keeps_places(spec: LatticeSpec, placement: Placement) -> bool:
 def place_tpms(
     layout: Layout, spec: LatticeSpec, placement: Placement, monitor: Monitor
 ) -> Deformed:
-    """Where the vertices of laid octants are in the part."""
+    """Where the vertices of placed octants are in the part."""
     mapping = placement.mapping or identity_map(placement.cell_size)
     if keeps_places(spec, placement):
         inside = coordinates(layout, monitor)

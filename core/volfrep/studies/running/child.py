@@ -36,7 +36,7 @@ def run_in_child(
             if batch.limits.memory_gb is not None:
                 resident_gb(os.getpid())
             for design in batch.designs:
-                worker = _made(batch, design, worker, progress)
+                worker = _run_once(batch, design, worker, progress)
                 if ended is not None:
                     ended(design.key)
     finally:
@@ -44,7 +44,7 @@ def run_in_child(
             worker.end()
 
 
-def _made(
+def _run_once(
     batch: Batch, design: Design, worker: Worker | None, progress: ProgressCallback | None
 ) -> Worker | None:
     """Do one run, twice where its process dies; the process that is left."""

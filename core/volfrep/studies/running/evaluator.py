@@ -241,9 +241,9 @@ def _solve(bench: Evaluator) -> dict[str, Figure]:
     _, found = solve_struts(
         bench.solid, bench.one_radius(), loads, progress=bench.progress, cache=bench.shared.cache
     )
-    figures = _carried(found, [case.name for case in loads.cases])
+    figures = _largest_figures(found, [case.name for case in loads.cases])
     limit = loads.material.yield_stress
-    figures["safety"] = None if limit is None else _rounded(limit / float(found.stress.max()))
+    figures["safety"] = None if limit is None else _round_off(limit / float(found.stress.max()))
     return figures
 
 
@@ -265,30 +265,30 @@ def _size(bench: Evaluator) -> dict[str, Figure]:
     bench.notes["size"] = list(report["notes"])
     figures: dict[str, Figure] = {
         "holds": report["holds"],
-        "strut_mass_g": _rounded(report["strut_mass_g"]),
-        "thinnest_mm": _rounded(report["radii_mm"][0]),
-        "thickest_mm": _rounded(report["radii_mm"][1]),
-        **_carried(made.sized.analysis, [case.name for case in loads.cases]),
-        "stiffer": _rounded(min(report["same_mass"]["stiffer"], default=1.0)),
+        "strut_mass_g": _round_off(report["strut_mass_g"]),
+        "thinnest_mm": _round_off(report["radii_mm"][0]),
+        "thickest_mm": _round_off(report["radii_mm"][1]),
+        **_largest_figures(made.sized.analysis, [case.name for case in loads.cases]),
+        "stiffer": _round_off(min(report["same_mass"]["stiffer"], default=1.0)),
     }
     if "same_limits" in report:
-        figures["mass_saved"] = _rounded(report["same_limits"]["mass_saved"])
+        figures["mass_saved"] = _round_off(report["same_limits"]["mass_saved"])
     return {**figures, "file": f"sized/{path.name}"}
 
 
-def _carried(found: Analysis, cases: list[str]) -> dict[str, Figure]:
+def _largest_figures(found: Analysis, cases: list[str]) -> dict[str, Figure]:
     """What is largest in any load case, and in which."""
     worst = int(found.largest.argmax())
     return {
-        "displacement_mm": _rounded(found.largest[worst]),
+        "displacement_mm": _round_off(found.largest[worst]),
         "case": cases[worst],
-        "stress_mpa": _rounded(found.stress.max()),
-        "buckling": _rounded(found.buckling.max()),
-        "compliance_nmm": _rounded(found.compliance.max()),
+        "stress_mpa": _round_off(found.stress.max()),
+        "buckling": _round_off(found.buckling.max()),
+        "compliance_nmm": _round_off(found.compliance.max()),
     }
 
 
-def _rounded(value: float) -> float:
+def _round_off(value: float) -> float:
     """To six digits: the last ones hang on how many threads sum."""
     return float(f"{value:.6g}")
 

@@ -179,7 +179,7 @@ def run_in_background(batches: Sequence[Batch], tally: Tally) -> None:
     with ThreadPoolExecutor(tally.workers, "volfrep-study") as pool:
         try:
             futures = [
-                pool.submit(run_in_child, _taken(left), tally.ended, tally.goes_on)
+                pool.submit(run_in_child, _take_batches(left), tally.ended, tally.goes_on)
                 for _ in range(tally.workers)
             ]
             _wait(futures, tally)
@@ -199,7 +199,7 @@ def _asking(batches: Sequence[Batch], ask: Callable[[], bool]) -> Iterator[Batch
         yield batch
 
 
-def _taken(batches: deque[Batch]) -> Iterator[Batch]:
+def _take_batches(batches: deque[Batch]) -> Iterator[Batch]:
     """Batches that nobody else has taken, until there are none."""
     while True:
         try:
@@ -215,15 +215,15 @@ def run_by(executor: Executor, batches: Sequence[Batch], tally: Tally) -> None:
         VolfrepError: the executor takes nothing more, or a worker cannot use the study's folder.
         Cancelled: the caller said so; runs that have begun go on.
     """
-    lost = _submitted(executor, batches, tally)
+    lost = _submit(executor, batches, tally)
     # Alone, a run that ends its worker takes no other one with it.
     single = [replace(b, designs=(d,)) for b, _ in lost for d in b.designs]
-    for batch, error in _submitted(executor, single, tally):
+    for batch, error in _submit(executor, single, tally):
         why = f"The worker of this run was lost ({type(error).__name__}: {error})."
         note(batch, batch.designs[0], why)
 
 
-def _submitted(
+def _submit(
     executor: Executor, batches: Sequence[Batch], tally: Tally
 ) -> list[tuple[Batch, BaseException]]:
     """Run batches; those whose workers were lost, with why."""

@@ -81,7 +81,8 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     volume = abs(solid.volume)
     area = solid.area
     skin = 0.0 if spec.skin is None else spec.skin.rough_volume(solid)
-    inside = volume * (share_deeper(solid, skin / area) if skin else 1.0)
+    depth = skin / area
+    inside = volume * (share_deeper(solid, depth) if skin else 1.0)
     graph = spec.kind.graph_in(inside, area)
     if graph is not None:
         return _forecast_graph(solid, spec, *graph)
@@ -91,8 +92,8 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     dense = _density(solid, spec)
     bends = skin_bends(solid, spec)
     triangles = len(solid.triangles) + costs.FACETS_PER_BEND * bends * wall / area
+    cut = costs.WALL_TRIANGLES * wall / edge**2
     if spec.output != "domain":
-        cut = costs.WALL_TRIANGLES * wall / edge**2
         triangles += dense * expected_triangles(spec, inside) + cut
     # A cell that the wall merely touches is active too: half a cell on either side of it.
     cells = dense * (inside + 0.5 * wall * spec.cell_size) / one
@@ -106,10 +107,13 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
         # Within a part all cells are there: those of the octants that are not lie outside.
         seconds += spec.kind.meshing_seconds(1.0)
     held = costs.BYTES_PER_TRIANGLE * triangles
-    if streamed and spec.streams:
-        at_wall = expected_triangles(spec, min(inside, costs.CUT_LAYER * spec.cell_size * area))
-        placed = costs.BYTES_PER_PLACED_TRIANGLE * triangles if spec.varies else 0.0
-        held = min(held, costs.BYTES_PER_CUT_TRIANGLE * at_wall + placed)
+    if spec.streams:
+        beyond = volume * share_deeper(solid, depth + costs.LEFT_LAYER * spec.cell_size)
+        cut += dense * expected_triangles(spec, max(inside - beyond, 0.0))
+        each = costs.BYTES_PER_PLACED_TRIANGLE if spec.varies else 0.0
+        each += 0.0 if streamed else costs.BYTES_PER_MESH_TRIANGLE
+        beside = costs.BYTES_OF_GROUPS + each * triangles
+        held = min(held, costs.BYTES_PER_CUT_TRIANGLE * cut + beside)
     held = max(held, costs.BYTES_PER_BEND * bends + costs.BYTES_PER_NARROW * narrow)
     held += costs.BYTES_GRADED if spec.is_graded else 0.0
     return _forecast(cells, spec.kind.strut_shares(), triangles, held / triangles, seconds)

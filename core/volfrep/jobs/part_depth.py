@@ -121,6 +121,12 @@ class PartDepth:
             self._known[key] = self._found_below(points, shell)
         return self._known[key].copy()
 
+    def signed_below_skin(self, points: Floats, shell: float) -> Floats:
+        """(n,) as `below_skin`, but that it falls all the way outwards, so that it can be drawn."""
+        if not self._is_even:
+            return self.below_skin(points, shell)
+        return self.below_skin(points, 0.0) - shell
+
     def _found_below(self, points: Floats, shell: float) -> Floats:
         depth = self._surface.near(points)[1]
         # On which side a point lies does not matter where it is nearer than the skin is thick.

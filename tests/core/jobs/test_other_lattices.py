@@ -62,6 +62,8 @@ def test_a_preview_has_the_figures_of_what_is_made(more: dict[str, object]) -> N
     assert shown.surface is not None
     found = inspect(shown.surface).quality
     assert found.watertight
+    # What is drawn ends at the skin: nothing lies in it, or beside the part.
+    assert DEPTH.below_skin(shown.surface.vertices, 0.0).min() > spec.shell - 0.1
     lattice = made.relative_density * made.domain_volume_mm3
     assert 0.7 * lattice < found.volume < 1.6 * lattice  # thin sheets are drawn thicker
 

@@ -27,11 +27,13 @@ from .stiffness import solve_tpms_stiffness
 
 #: Samples along a cell, of which there are never more than so many in the part's box; fewer than
 #: the least along a cell would not show what it is.
-ALONG_CELL, MOST_SAMPLES, LEAST_ALONG = 10, 1_000_000, 5
+ALONG_CELL, MOST_SAMPLES, LEAST_ALONG = 16, 1_000_000, 5
 #: Samples along one period of the distance to the surface.
 PERIOD = 32
-#: Depths are sampled at every so many of these samples, and in between taken as even.
+#: Depths are sampled at every so many of these samples, and in between taken as linear.
 DEPTH_EVERY = 3
+#: So far outside the part's box samples begin, in samples: not where faces and skins often lie.
+BEGIN = 0.7
 #: A sheet is drawn no thinner than so many samples, or it would show holes.
 THINNEST = 1.3
 #: Where cells are stretched more than the inverse of this, walls are drawn too thin.
@@ -93,23 +95,19 @@ def _surface(
             "the cells."
         )
     number = np.ceil((high - low) / pitch).astype(int) + 3
-    start = low - pitch
+    start = low - BEGIN * pitch
     places = np.stack(np.meshgrid(*(np.arange(n) for n in number), indexing="ij"), axis=-1)
     points = (start + pitch * places).reshape(-1, 3)
     coarse = np.ceil(number / DEPTH_EVERY).astype(int) + 1
     few = np.stack(np.meshgrid(*(np.arange(n) for n in coarse), indexing="ij"), axis=-1)
     at = (start + DEPTH_EVERY * pitch * few).reshape(-1, 3)
-    below = depth.below_skin(at, spec.shell).reshape(tuple(coarse))
-
-    def deep(some: Floats) -> Floats:
-        at = (some - start) / (DEPTH_EVERY * pitch)
-        return np.asarray(map_coordinates(below, at.T, order=1, mode="nearest"))
-
-    levels = _levels(points, spec, where.placement, lambda some: deep(some) + spec.shell)
+    below = depth.signed_below_skin(at, spec.shell).reshape(tuple(coarse))
+    deep = np.asarray(map_coordinates(below, places.reshape(-1, 3).T / DEPTH_EVERY, order=1))
+    levels = _levels(points, spec, where.placement, lambda _: deep + spec.shell)
     if spec.wall.is_sheet:
         levels = np.maximum(levels, 0.5 * THINNEST * pitch)
     sheet = where.sided(points) - levels
-    field = np.maximum(sheet, -deep(points))
+    field = np.maximum(sheet, -deep)
     field = np.pad(field.reshape(tuple(number)), 1, constant_values=pitch)
     if field.min() >= 0.0:
         raise VolfrepError("No TPMS lies inside the skin: reduce the skin thickness.")

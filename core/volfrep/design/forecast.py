@@ -21,8 +21,8 @@ from ..util.types import Floats
 from . import costs
 from .spec import LatticeSpec
 
-#: Where less than this share of the solid is left within a skin, parts of it have no lattice.
-ROOMY = 0.2
+#: How far a depth is changed to see how much room that leaves: a share of it, or of V / A.
+AROUND, AT_LEAST = 0.25, 0.05
 #: Lines into the solid by which narrow rooms are told; rooms as wide as the skin are not narrow,
 #: and the cubes are no finer than for a room of the least width (thicknesses).
 NARROW_LINES = 2048
@@ -87,16 +87,15 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     if graph is not None:
         return _forecast_graph(solid, spec, *graph)
     one, edge = cell_volume(spec), spec.cell_size / spec.facets_along_cell
-    # Where a skin leaves little, it is solid below most of the surface.
-    wall = area * min(1.0, inside / (ROOMY * volume))
+    wall = wall_area(solid, depth)
     dense = _density(solid, spec)
     bends = skin_bends(solid, spec)
     triangles = len(solid.triangles) + costs.FACETS_PER_BEND * bends * wall / area
     cut = costs.WALL_TRIANGLES * wall / edge**2
     if spec.output != "domain":
         triangles += dense * expected_triangles(spec, inside) + cut
-    # A cell that the wall merely touches is active too: half a cell on either side of it.
-    cells = dense * (inside + 0.5 * wall * spec.cell_size) / one
+    # A cell that the wall merely touches is active too: more than half a cell beyond it.
+    cells = dense * (inside + 0.62 * wall * spec.cell_size) / one
     if spec.cell_map is None:
         grid = np.ceil(np.ptp(solid.bounds, axis=0) / spec.cell_size - 1e-6).prod()
         cells = min(cells, float(grid) * spec.cell_size**3 / one)
@@ -127,6 +126,16 @@ def share_deeper(solid: TriangleMesh, depth: float) -> float:
     depths = _depths(solid)
     deeper = len(depths) - int(np.searchsorted(depths, depth))
     return max(float(deeper), 0.5) / max(len(depths), 1)
+
+
+def wall_area(solid: TriangleMesh, depth: float) -> float:
+    """About the area of the offset surface at a depth in mm: how fast the room within it grows."""
+    volume, area = abs(solid.volume), solid.area
+    if depth <= 0.0:
+        return area
+    far = max(AROUND * depth, AT_LEAST * volume / area)
+    low, high = max(depth - far, 0.0), depth + far
+    return volume * (share_deeper(solid, low) - share_deeper(solid, high)) / (high - low)
 
 
 @lru_cache(maxsize=4)

@@ -14,6 +14,7 @@ from volfrep.design.forecast import (
     narrow_gaps,
     share_deeper,
     skin_bends,
+    wall_area,
 )
 from volfrep.design.grading import CellMap, SizeGrading
 from volfrep.design.graphs import RandomGraph
@@ -108,6 +109,15 @@ def test_what_a_thick_skin_leaves_is_known_of_a_box_and_a_ball():
         assert share_deeper(box, depth) == pytest.approx(left, abs=0.02)
         assert share_deeper(ball, depth) == pytest.approx((1.0 - depth / 20.0) ** 3, abs=0.02)
     assert 0.0 < share_deeper(box, 11.0) < 0.002
+
+
+@pytest.mark.parametrize("depth", [1.0, 3.0, 8.0])
+def test_the_wall_within_a_skin_is_smaller_than_the_surface_of_a_box_and_a_ball(depth):
+    a, b, c = np.array([40.0, 30.0, 20.0]) - 2.0 * depth
+    found = wall_area(samples.box((40.0, 30.0, 20.0)), depth)
+    assert found == pytest.approx(2.0 * (a * b + a * c + b * c), rel=0.1)
+    found = wall_area(samples.sphere(20.0), depth)
+    assert found == pytest.approx(4.0 * np.pi * (20.0 - depth) ** 2, rel=0.1)
 
 
 @pytest.mark.costly

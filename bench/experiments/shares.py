@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,8 @@ from ..tables import Column, Row, bar, table
 SIZES, QUICK_SIZES = (10.0, 2.5), (5.0,)
 #: Workers whose time is measured, that of the fastest of some runs; and those that it is told for.
 MEASURED, TOLD, RUNS = 2, (4, 8, 16), 3
+#: Above this load, of all cores, other jobs take part in the time, and it is left out.
+BUSY = 0.5
 #: How much one thread may do alone; by how much the measured time may exceed the expected one.
 BAR_ALONE, BAR_EXPECTED = 0.12, 1.2
 
@@ -28,17 +31,19 @@ def _shares(context: Context, size: float) -> Row:
     row: Row = {"size": size}
     out = context.folder / "shared.stl"
     job = bench_job("shares", str(bracket()), "CVC", f"{size:g}", str(MEASURED), str(out))
+    is_idle = os.getloadavg()[0] <= BUSY * (os.cpu_count() or 1)
     runs = [run(job) for _ in range(1 if context.quick else RUNS)]
     failed = next((done.failure for done in runs if done.failure), None)
     if failed:
         return context.say({**row, "note": failed, "failed": True})
     done = min(runs, key=lambda done: done.seconds)
     found = answer(done)
-    row |= {"seconds": done.seconds, **found, "alone": found["first_thread"] / found["all"]}
+    row |= {**found, "alone": found["first_thread"] / found["all"]}
     row["main_share"] = found["main_process"] / found["all"]
     for count in (MEASURED, *TOLD):
         row[f"with_{count}"] = expected_seconds(found["first_thread"], found["all"], count)
-    row["over"] = done.seconds / row[f"with_{MEASURED}"]
+    if is_idle:
+        row |= {"seconds": done.seconds, "over": done.seconds / row[f"with_{MEASURED}"]}
     out.unlink()
     return context.say(row)
 
@@ -77,7 +82,7 @@ def render(result: dict[str, Any], images: Path) -> str:
     )
     return f"""## What more cores bring
 
-The GE bracket, CVC, r = L / 10, skin of {SHELL:g} mm, with {MEASURED} workers, the fastest of {RUNS} runs: shares of all processors' seconds, then seconds on so many cores. By Amdahl's law nobody shares what the main process's first thread computes, and n cores, each with a worker, divide the rest by n.
+The GE bracket, CVC, r = L / 10, skin of {SHELL:g} mm, with {MEASURED} workers, the fastest of {RUNS} runs: shares of all processors' seconds, then seconds on so many cores (measured on an idle machine only). By Amdahl's law nobody shares what the main process's first thread computes, and n cores, each with a worker, divide the rest by n.
 
 {table(columns, result["rows"])}
 """

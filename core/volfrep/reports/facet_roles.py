@@ -26,6 +26,8 @@ OUTSIDE, WALL, LATTICE = 0, 1, 2
 #: A corner lies on the wall up to this depth, in thicknesses of the skin; on the outside up to
 #: that one.
 WALL_DEPTH, OUTSIDE_DEPTH = 1.01, 0.25
+#: The same where the thickness follows a field, which the wall keeps less closely.
+FIELD_DEPTH = 1.05
 #: The surface is sampled this often along the diagonal of the part's box, and with no more points.
 SAMPLES_ALONG = 150.0
 MOST_SAMPLES = 2_000_000
@@ -77,7 +79,13 @@ def _beyond_skin(
     for faces, length in groups:
         index = surface if faces.all() else surface.without(~faces)
         most = WALL_DEPTH * length
-        beyond = np.minimum(beyond, _depth(index, points, most) - most)
+        if skin.field is None or faces is not lengths.usual:
+            beyond = np.minimum(beyond, _depth(index, points, most) - most)
+            continue
+        depth = _depth(index, points, FIELD_DEPTH * skin.deepest)
+        near = np.flatnonzero(np.isfinite(depth))
+        there = FIELD_DEPTH * np.maximum(length, skin.field(points[near]))
+        beyond[near] = depth[near] - there
     for body in skin.bodies:
         low, high = body.bounds
         reach = (WALL_DEPTH - 1.0) * skin.thickness

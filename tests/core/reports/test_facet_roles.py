@@ -9,6 +9,7 @@ from volfrep import LatticeSpec
 from volfrep.design.grading import RadiusGrading
 from volfrep.design.openings import DrainHoles, DrainPlace, OpenPlane
 from volfrep.design.profile import Profile
+from volfrep.design.scattered_field import PointField
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.reports.facet_roles import LATTICE, OUTSIDE, WALL, kinds_of_triangles
@@ -110,3 +111,15 @@ def test_without_a_skin_all_is_lattice(values):
 def test_a_domain_holds_no_lattice():
     _, kinds = told(output="domain")
     assert (kinds == OUTSIDE).all()
+
+
+@pytest.mark.costly
+def test_the_wall_of_a_skin_that_follows_a_field_is_wall_where_it_is_thick():
+    places = np.stack(np.meshgrid(*(np.linspace(0, side, 9) for side in SIZE)), -1).reshape(-1, 3)
+    thickness = PointField(places, SHELL + 2.0 * places[:, 0] / SIZE[0], "test")
+    mesh, kinds = told(skin_field=thickness)
+    wall = area(mesh, kinds == WALL)
+    assert 0.5 * faces(SIZE - 5.0) < wall < faces(SIZE - 5.0)
+    corners = mesh.vertices[mesh.triangles[kinds == LATTICE]].reshape(-1, 3)
+    far = corners[:, 0] > 0.8 * SIZE[0]
+    assert np.quantile(depth(corners[far]), 0.05) > SHELL + 1.2

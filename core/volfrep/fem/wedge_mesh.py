@@ -36,6 +36,7 @@ class WedgeMesh:
             the inner edges and of the outer ones, and those across (the order of CalculiX).
         is_pad: (e,) bool, next to a vertex with a pad.
         triangles: (t, 3) of the surface, rows of its vertices.
+        rows: (t,) which of the triangles that were given they are.
         of: (e,) the triangle that each wedge is a piece of.
         outer: (n,) the node at each vertex of the outer surface; -1 where none is used.
         inner: (n,) the same of the inner one.
@@ -46,6 +47,7 @@ class WedgeMesh:
     elements: Ints
     is_pad: Bools
     triangles: Ints
+    rows: Ints
     of: Ints
     outer: Ints
     inner: Ints
@@ -165,7 +167,8 @@ def wedge_mesh(outer: Floats, inner: Floats, triangles: Ints, pads: Floats) -> W
     triangles = triangles.astype(np.int64)
     own = len(outer)
     inner = upright(outer, inner, triangles)
-    triangles = triangles[_stands(outer[triangles], inner[triangles], _UPRIGHT)]
+    rows = np.flatnonzero(_stands(outer[triangles], inner[triangles], _UPRIGHT))
+    triangles = triangles[rows]
     vertices, pieces, is_pad, of, ring = _cut(own, triangles, pads, outer)
     (near, far), share = vertices
     above = (1.0 - share)[:, None] * outer[near] + share[:, None] * outer[far]
@@ -196,6 +199,7 @@ def wedge_mesh(outer: Floats, inner: Floats, triangles: Ints, pads: Floats) -> W
         elements,
         is_pad,
         triangles,
+        rows,
         of,
         np.where(place[:own] >= 0, place[:own] + count, -1),
         place[:own],

@@ -44,8 +44,9 @@ HOLDS = 1.0 + 1e-3
 _PATIENCE, _BETTER, _FEWEST = 8, 2e-3, 15
 #: So many of the lightest designs are brought to their limits in the end.
 _KEPT = 3
-#: Steps in which single struts become thicker.
-_THICKENINGS = 5
+#: Steps in which single struts become thicker; so many more with a skin, for this part of the limit
+#: of stress.
+_THICKENINGS, _IN_A_SKIN, _BEYOND = 5, 30, 0.98
 #: Steps towards the limits by one factor.
 _SCALINGS = 14
 
@@ -301,13 +302,20 @@ def thicken(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, 
     """
     radii = problem.most_alike(radii)
     low = replace(problem, low=np.maximum(problem.low, radii))
-    found = analyse(low, radii, limits)[0]
-    for _ in range(_THICKENINGS if problem.around is None else 3 * _THICKENINGS):
+    aimed = limits
+    if limits.stress is not None:
+        aimed = replace(limits, stress=_BEYOND * limits.stress)
+    for number in range(_THICKENINGS + (0 if problem.around is None else _IN_A_SKIN)):
+        found, changes = analyse(low, radii, limits, with_changes=True)
         if found.most_used <= 1.0:
             return found, True
-        found, changes = analyse(low, found.radii, limits, with_changes=True)
         assert changes is not None
-        found = analyse(low, low.smoothed(next_radii(low, found, changes, limits)), limits)[0]
+        # What a skin moves is little less stressed when it is thicker: it is asked for more.
+        wanted = limits if number < _THICKENINGS else aimed
+        radii = low.smoothed(next_radii(low, found, changes, wanted))
+    found = analyse(low, radii, limits)[0]
+    if found.most_used <= 1.0:
+        return found, True
     scaled, holds = scaled_to_limits(low, limits, found.radii)
     return (scaled, True) if holds else (found, False)
 

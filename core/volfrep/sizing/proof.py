@@ -38,8 +38,12 @@ MOST_PROVED = 6_000
 _THIN = 0.1
 #: Both sides of what is solid are held together by so many times their thickness' stiffness.
 HELD_TOGETHER = 100.0
-#: Struts count as more stressed in CalculiX where they have this share of the largest stress there.
+#: Struts count as more stressed in CalculiX where they have this share there of the largest stress,
+#: that of the design itself or that in CalculiX, whichever is less.
 TELLING = 0.5
+#: Struts that are more stressed there are held to this part of the limit, as others bear then what
+#: they bore.
+SHARED = 0.98
 #: A node has no part of a vertex whose share in it is smaller.
 _NOT_BESIDE = 1e-6
 #: A limit that CalculiX finds used more than this makes the design a little thicker.
@@ -57,11 +61,13 @@ class Proved:
         stress_factor: (m,) how many times as stressed as their beams say the struts are there,
             1 or more: of those that are stressed most.
         skin: the skin's stress in each case, MPa, on all but a little of its area; none without.
+        on_skin: (t, k) of each of its shells, MPa; nan where there is none. None without a skin.
     """
 
     figures: dict[str, Any]
     stress_factor: Floats
     skin: tuple[float, ...] = ()
+    on_skin: Floats | None = None
 
     def uses(self, limits: Limits, final: Analysis) -> dict[str, float]:
         """By the name of each limit that CalculiX has a figure for, the share of it used there."""
@@ -105,6 +111,8 @@ def correct_problem(
     if used.get("stress", 0.0) > PROVED:
         before = 1.0 if problem.stress_factor is None else problem.stress_factor
         problem = replace(problem, stress_factor=np.maximum(before, proof.stress_factor))
+        assert limits.stress is not None
+        wanted = replace(wanted, stress=SHARED * limits.stress)
     if limits.displacement is not None and used["displacement"] > PROVED:
         ratio = used["displacement"] / final.uses["displacement"]
         wanted = replace(wanted, displacement=limits.displacement / ratio)
@@ -218,7 +226,8 @@ def prove_design(
     known = np.isfinite(stress)
     there_most = np.where(known, stress, 0.0).max(axis=(1, 2))
     more = there_most / np.maximum(alone.max(axis=(1, 2)), 1e-300)
-    more = np.where(there_most > TELLING * there_most.max(initial=0.0), np.maximum(more, 1.0), 1.0)
+    telling = TELLING * min(there_most.max(initial=0.0), summed.max(initial=0.0))
+    more = np.where(there_most > telling, np.maximum(more, 1.0), 1.0)
     worst = float(stress[known].max() / summed.max()) if known.any() else None
     compared = bool(known.ravel()[int(summed.argmax())])
     result: dict[str, Any] = {
@@ -231,9 +240,11 @@ def prove_design(
         "worst_strut_compared": compared,
         "with_the_skin": model.skin is not None,
     }
-    on_skin: tuple[float, ...] = ()
-    if solid is not None:
-        on_skin = skin_stresses(solid.mesh, found.skin[len(deck.nodes) :])
+    peaks: tuple[float, ...] = ()
+    on_skin = None
+    if solid is not None and model.skin is not None:
+        shells = len(model.skin.shells.triangles)
+        peaks, on_skin = skin_stresses(solid.mesh, found.skin[len(deck.nodes) :], shells)
     if modes:
         result["frequencies_hz"] = found.frequencies.tolist()
         result["lowest_frequency"] = float(found.frequencies[0] / final.frequency)
@@ -243,25 +254,31 @@ def prove_design(
         ]
     result["doubts"] = doubts(result, final, [case.name for case in problem.cases])
     result["confirmed"] = not result["doubts"]
-    return Proved(result, more, on_skin)
+    return Proved(result, more, peaks, on_skin)
 
 
-def skin_stresses(mesh: WedgeMesh, stress: Floats) -> tuple[float, ...]:
+def skin_stresses(mesh: WedgeMesh, stress: Floats, shells: int) -> tuple[tuple[float, ...], Floats]:
     """Von Mises on either side of a skin in each case, MPa, on all but a little of its area.
+
+    And (t, k) of each shell, the mean of its wedges.
 
     Where struts stand on it, wedges are stiffer than the skin, and do not count.
 
     Args:
         mesh: the wedges.
         stress: (nodes, 6, cases) at their nodes.
+        shells: t, how many shells the skin has.
     """
-    own = mesh.elements[~mesh.is_pad]
+    own, shell = mesh.elements[~mesh.is_pad], mesh.rows[mesh.of[~mesh.is_pad]]
     worst = np.zeros((len(own), stress.shape[2]))
     for side in (own[:, :3], own[:, 3:6]):
         worst = np.maximum(worst, von_mises(stress[side].mean(axis=1), axis=1))
     one, two, three = mesh.nodes[own[:, 3:6]].swapaxes(0, 1)
     area = np.linalg.norm(np.cross(two - one, three - one), axis=1)
-    return tuple(most_but_peaks(row, area) for row in worst.T)
+    total = np.bincount(shell, area, shells)
+    summed = np.stack([np.bincount(shell, area * row, shells) for row in worst.T], axis=1)
+    each = np.asarray(summed / np.where(total > 0.0, total, np.nan)[:, None])
+    return tuple(most_but_peaks(row, area) for row in worst.T), each
 
 
 def end_stresses(solved: SolvedFrame, model: BeamMesh, beams: Beams, radii: Floats) -> Floats:

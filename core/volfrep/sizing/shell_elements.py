@@ -211,18 +211,18 @@ class Shells:
                     )
         return result
 
-    def stresses(self, displacements: Floats) -> Floats:
-        """(t, k) the larger von Mises stress of both sides in the middle, MPa, of (n, 6, k)."""
-        plane = self._plane_stress()
-        even = self.in_plane(displacements)
+    def bent(self, displacements: Floats) -> Floats:
+        """(t, 3, k) xx, yy and xy that bending adds on one side, MPa, mean over each triangle.
+
+        What of it is as good as rigid does not bend.
+        """
         of = self.panels.of
         turned = _in_axes(displacements[self.panels.nodes], self.axes[of])[:, _ACROSS]
         curved = self._curvature(np.full(2, 1.0 / 3.0)) @ self._led() @ turned
-        bent = 0.5 * self.thickness[of, None, None] * (plane @ curved)
-        worst = _mises(even)
-        for sign in (1.0, -1.0):
-            np.maximum.at(worst, of, _mises(even[of] + sign * bent))
-        return worst
+        share = 0.5 * self.thickness[of] * _area(self.panels.corners) / self.area[of]
+        result = np.zeros((len(self.area), 3, displacements.shape[2]))
+        np.add.at(result, of, share[:, None, None] * (self._plane_stress() @ curved))
+        return result
 
     def _plane_stress(self) -> Floats:
         """(3, 3) stress of strain, E / (1 - nu2)."""
@@ -458,7 +458,9 @@ def _in_axes(displacements: Floats, axes: Floats) -> Floats:
     )
 
 
-def _mises(stress: Floats) -> Floats:
-    """(t, k) von Mises, of (t, 3, k) in a plane."""
-    xx, yy, xy = stress[:, 0], stress[:, 1], stress[:, 2]
-    return np.asarray(np.sqrt(xx**2 - xx * yy + yy**2 + 3.0 * xy**2))
+def worse_side(even: Floats, bent: Floats) -> Floats:
+    """(t, k) the larger von Mises stress of both sides, of (t, 3, k) in plane and of bending."""
+    sides = []
+    for xx, yy, xy in ((even + sign * bent).swapaxes(0, 1) for sign in (1.0, -1.0)):
+        sides.append(np.sqrt(xx**2 - xx * yy + yy**2 + 3.0 * xy**2))
+    return np.asarray(np.maximum(*sides))

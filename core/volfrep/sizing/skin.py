@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csr_matrix, diags
+from scipy.sparse import csr_matrix
 from scipy.spatial import cKDTree
 
 from ..design.openings import lie_on
@@ -32,8 +32,8 @@ from ..spatial.rays import segment_crossings
 from ..util.linalg import cross_matrix
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .shell_elements import Shells, UnitBlocks, shells_of
-from .skin_mesh import even_surface
+from .shell_elements import Shells, UnitBlocks, shells_of, worse_side
+from .skin_mesh import SHARP, even_surface
 from .structure import Blocks, MultiPointConstraints
 from .tapered_beams import Elastic
 
@@ -44,8 +44,8 @@ _SOLID = 2.02
 #: What walls have in common counts as rigid by this share, and takes no more than so much of a
 #: triangle's inscribed circle. (Hollow boxes of solid bricks say so.)
 _COMMON, _RIGID_CORNER = 0.5, 0.8
-#: Stress is not told of triangles of less than this part of the mean area, or of less quality.
-_SMALL, _POOR = 0.25, 0.3
+#: By so much of their spread about a triangle is a slope of the stress held back.
+_NO_SLOPE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +103,7 @@ class SkinModel:
         thickness_below: (n,) mm, how thick the part is below each vertex, as far as that
             was looked at.
         between: stiffness of what is solid between shells, which `blocks` has, too.
+        stress_ratio: (t,) how many times as stressed as they say the shells are; None for once.
     """
 
     outside: TriangleMesh
@@ -116,6 +117,7 @@ class SkinModel:
     solid_share: float
     thickness_below: Floats
     between: Blocks
+    stress_ratio: Floats | None = None
 
     def unit_blocks(self) -> UnitBlocks:
         """The shells' blocks for a thickness of 1 mm, between the nodes outside."""
@@ -130,15 +132,27 @@ class SkinModel:
     def stresses(self, displacements: Floats, shells: Shells | None = None) -> Floats:
         """(t, k) the larger von Mises stress of both sides, MPa, of the nodes' (n, 6, k).
 
-        In a needle, or in a triangle that is much smaller than others, strain is a difference over
-        next to no way: there it is the mean of those about it.
+        A triangle's own scatters: it has what fits it and those that touch it in its face best, a
+        stress that is linear there (O. C. Zienkiewicz, J. Z. Zhu, "The superconvergent patch
+        recovery", Int. J. Num. Meth. Eng. 33, 1992).
 
         Args:
             displacements: mm and radians.
             shells: of another thickness; None for its own.
         """
-        stress = (shells or self.shells).stresses(self.of_middle(displacements))
-        return np.asarray(self._evened @ stress)
+        shells, moved = shells or self.shells, self.of_middle(displacements)
+        across = shells.axes[:, :2]
+
+        def fitted(own: Floats) -> Floats:
+            xx, yy, xy = own.swapaxes(0, 1)
+            tensor = np.stack([np.stack([xx, xy], axis=1), np.stack([xy, yy], axis=1)], axis=1)
+            whole = np.einsum("tai,tabk,tbj->tijk", across, tensor, across, optimize=True)
+            whole = (self._patches @ whole.reshape(len(own), -1)).reshape(whole.shape)
+            tensor = np.einsum("tai,tijk,tbj->tabk", across, whole, across, optimize=True)
+            return np.stack([tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 0, 1]], axis=1)
+
+        stress = worse_side(fitted(shells.in_plane(moved)), fitted(shells.bent(moved)))
+        return stress if self.stress_ratio is None else stress * self.stress_ratio[:, None]
 
     def pressed(self, displacements: Floats, shells: Shells | None = None) -> Floats:
         """(c, 6, 6) what the stress in the shells' plane adds to `blocks`, of the nodes' (n, 6)."""
@@ -148,24 +162,31 @@ class SkinModel:
         return np.asarray(arms[rows].swapaxes(1, 2) @ added @ arms[columns])
 
     @cached_property
-    def _evened(self) -> csr_matrix:
-        """(t, t) what makes means of what is poor, of shells that share a vertex with it."""
-        triangles, area = self.shells.triangles, self.shells.area
+    def _patches(self) -> csr_matrix:
+        """(t, t) what makes of triangles' own values those of the linear fit in their middles."""
+        triangles, area, axes = self.shells.triangles, self.shells.area, self.shells.axes
         count = len(triangles)
-        poor = area < _SMALL * area.mean()
-        poor |= remesh.qualities(self.middle[triangles]) < _POOR
         every = np.repeat(np.arange(count), 3)
         shape = (count, len(self.middle))
         at = csr_matrix((np.ones(3 * count), (every, triangles.ravel())), shape)
-        touch = at[np.flatnonzero(poor)] @ at.T
-        touch.data[:] = 1.0
-        weight = touch @ diags(area)
-        mean = diags(1.0 / np.asarray(weight.sum(axis=1)).ravel()) @ weight
-        rows = csr_matrix(
-            (np.ones(poor.sum()), (np.flatnonzero(poor), np.arange(poor.sum()))),
-            (count, int(poor.sum())),
-        )
-        return csr_matrix(diags((~poor).astype(float)) + rows @ mean)
+        touch = (at @ at.T).tocoo()
+        row, column = touch.row, touch.col
+        turn = np.einsum("ij,ij->i", axes[row, 2], axes[column, 2])
+        same = turn > np.cos(np.radians(SHARP))
+        row, column = row[same], column[same]
+        middle = self.middle[triangles].mean(axis=1)
+        away = np.einsum("kij,kj->ki", axes[row, :2], middle[column] - middle[row])
+        terms = np.column_stack([np.ones(len(row)), away])
+        weight = area[column]
+        normal = np.empty((count, 3, 3))
+        for one, two in np.ndindex(3, 3):
+            normal[:, one, two] = np.bincount(row, weight * terms[:, one] * terms[:, two], count)
+        # Of those that lie in a row, or alone, no slope across is known: it is none.
+        slope = _NO_SLOPE * (normal[:, 1, 1] + normal[:, 2, 2] + area * area)
+        normal[:, 1, 1] += slope
+        normal[:, 2, 2] += slope
+        share = weight * np.einsum("ki,ki->k", np.linalg.inv(normal)[row, 0], terms)
+        return csr_matrix((share, (row, column)), (count, count))
 
     def of_middle(self, displacements: Floats) -> Floats:
         """(n, 6, k) how the shells' corners move, of the nodes' displacements (n, 6, k)."""

@@ -24,7 +24,7 @@ from volfrep.sizing.node_radii import (
     whole_struts,
 )
 from volfrep.sizing.optimise import HOLDS, cheapest, lightest, stiffest, thicken, uniform
-from volfrep.sizing.proof import Proved, correct_problem
+from volfrep.sizing.proof import SHARED, Proved, correct_problem
 from volfrep.sizing.structure import Structure
 from volfrep.sizing.tapered_beams import Elastic, beams_of, end_table
 from volfrep.sizing.union_volume import union_volume
@@ -300,7 +300,8 @@ def test_a_design_is_corrected_where_calculix_finds_more():
     assert not proof.holds(limits, final)
     there, stricter = correct_problem(problem, limits, final, proof)
     assert stricter.frequency == pytest.approx(1.25 * limits.frequency)
-    assert (stricter.stress, stricter.displacement) == (limits.stress, limits.displacement)
+    assert stricter.stress == pytest.approx(SHARED * limits.stress)
+    assert stricter.displacement == limits.displacement
     assert analyse(there, radii, limits)[0].uses["stress"] == pytest.approx(1.25)
     # No strut becomes thinner, and the limits are held by struts as stressed as CalculiX says.
     thicker, holds = thicken(there, Limits(stress=limits.stress), radii)

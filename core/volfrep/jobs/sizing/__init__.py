@@ -4,14 +4,12 @@
 from .file_proof import check_file_proof, prove_file
 from .goal import GOALS, Goal, goal_of
 from .printed import Printing, printed_note
+from .result_files import values_with_radii, write_radii, write_thickness
 from .sizing import (
     SizedPart,
     size,
     solve_struts,
-    values_with_radii,
-    write_radii,
 )
-from .skin_search import write_thickness
 from .thin_struts import radius_field
 
 __all__ = [

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from ...loads.load_cases import LoadCase
 from ...mechanics.materials import SolidMaterial
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel
-from ...util.errors import VolfrepError, listed
+from ...util.errors import Cancelled, VolfrepError, listed
 from ...util.peaks import PEAKS
 from ...util.types import Floats
 from ..infill import Infill
@@ -242,12 +243,9 @@ def stressed_skin(
     """A sentence where the skin is stressed by more than the limit."""
     if model.skin is None or limits.stress is None:
         return []
-    shells, nodes = model.skin.shells, analysis.displacements[model.frame_nodes :]
-    if is_sized:
-        stress = model.skin.stresses(nodes).max(axis=1)
-    else:
-        stress = shells.stresses(model.skin.of_middle(nodes)).max(axis=1)
-    over = float(shells.area[stress > limits.stress].sum() / shells.area.sum())
+    area = model.skin.shells.area
+    stress = model.skin.stresses(analysis.displacements[model.frame_nodes :]).max(axis=1)
+    over = float(area[stress > limits.stress].sum() / area.sum())
     if over <= PEAKS:
         return []
     if is_sized:
@@ -260,3 +258,17 @@ def stressed_skin(
         f"MPa on {over:.1%} of its area, mostly where it is held and loaded: make it "
         "thicker, or look at those places with solid elements."
     ]
+
+
+@contextmanager
+def telling_free_motions(problem: Problem) -> Iterator[None]:
+    """Adds to a refusal which way the supports let the part go, if any."""
+    try:
+        yield
+    except Cancelled:
+        raise
+    except VolfrepError as error:
+        free = free_motions(problem)
+        if not free:
+            raise
+        raise VolfrepError(" ".join([str(error), *free])) from error

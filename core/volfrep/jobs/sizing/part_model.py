@@ -22,8 +22,10 @@ from ...sizing.skin import skin_model
 from ...spatial.proximity import closest_points
 from ...util.cache import StageCache
 from ...util.errors import VolfrepError
+from ...util.progress import ProgressCallback
 from ...util.types import Floats
 from ..infill import Infill
+from ..targets import solve_target
 from .goal import Goal
 from .printed import comes_out
 
@@ -130,6 +132,29 @@ def part_model(
             )
         model = replace(model, problem=model.problem.alike(groups))
     return model
+
+
+def without_target(
+    solid: TriangleMesh,
+    spec: LatticeSpec,
+    goal: Goal,
+    cache: StageCache,
+    progress: ProgressCallback | None,
+    notes: list[str],
+) -> LatticeSpec:
+    """The specification with the radius of its target, and what that means in a sentence."""
+    target = spec.target
+    if target is None or spec.output == "domain":
+        return replace(spec, target=None)
+    found = solve_target(solid, spec, progress=progress, cache=cache, meshed=False).spec
+    kept = "the limits now say how thick struts are"
+    if not goal.limits.any:
+        kept = "struts have their mass, distributed anew" if goal.volume is None else "it began so"
+    notes.append(
+        f"The target, a {target.called} of {target.value:.5g}, asks for struts of "
+        f"{found.strut_radius:.4g} mm: {kept}."
+    )
+    return replace(found, target=None)
 
 
 def given_radii(wireframe: Wireframe) -> Floats:

@@ -3,16 +3,13 @@
 
 from __future__ import annotations
 
-import os
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from ...design.parameters.specification import values_of
 from ...design.spec import LatticeSpec
 from ...loads.load_cases import LoadCases, refuse_heat, with_weights
 from ...mesh.triangle_mesh import TriangleMesh
@@ -21,17 +18,16 @@ from ...sizing.analysis import Analysis, Limits, Problem, analyse
 from ...sizing.discrete_radii import list_figures, of_list
 from ...sizing.model import SizingModel
 from ...sizing.optimise import HOLDS, Sized, Step, Watch, lightest, stiffest, thicken, uniform
-from ...sizing.proof import Proved, correct_problem, prove_design
+from ...sizing.proof import PROVED, Proved, correct_problem, prove_design
+from ...sizing.stress_ratios import StressRatios
 from ...sizing.strut_state import StrutState, strut_states
 from ...util.cache import StageCache
 from ...util.errors import Cancelled, VolfrepError
-from ...util.files import replacing
 from ...util.progress import Monitor, ProgressCallback
 from ...util.showing import Shown
 from ...util.types import Floats
 from ..infill import Infill
 from ..kinds import lattice_kind
-from ..targets import solve_target
 from .goal import Goal
 from .governing import Governing, governing
 from .notes import (
@@ -44,19 +40,22 @@ from .notes import (
     other_mass,
     small_dimples,
     stressed_skin,
+    telling_free_motions,
     too_dense,
     unproved,
 )
-from .part_model import given_radii, part_model
+from .part_model import given_radii, part_model, without_target
 from .printed import Printing, printed_figures, printed_note
 from .skin_search import (
     SkinDesign,
     design_skin,
     governing_thickness,
     lighter,
+    ratios_of,
     skin_peaks,
     thickness_there,
     weighed,
+    with_ratios,
 )
 from .solid_places import filled_notes, solid_places
 from .thin_struts import (
@@ -70,9 +69,15 @@ from .thin_struts import (
 
 #: So many times a design is made thicker because of what CalculiX finds.
 CORRECTIONS = 3
+#: Struts that use no more than this of a limit after that are proved again: what CalculiX says of
+#: them then is less than what it said of thinner ones.
+NEARLY = 1.1
 #: A skin is held to this part of its limit of stress, as its middle moves a little yet; and is
 #: chosen so many times. It holds its limit when that is used no more than so.
 MARGIN, SKINS, SKIN_HOLDS = 0.98, 2, 1.01
+#: So many times with what CalculiX says of stress, where that is beyond the limit; and for so much
+#: less then, as it changes with the skin.
+PROVED_SKINS, CHANGES = 3, 0.98
 #: Struts that grow by more than this with the skin as it is are searched for once more.
 GROWN = 1.05
 #: The part with its skin is made so many times at most, until it has the mass asked for.
@@ -162,15 +167,10 @@ def size(
     task = _prepare(solid, spec, loads, _checked(goal or Goal()), monitor, cache, progress)
     seconds = {"model": time.perf_counter() - start}
     start = time.perf_counter()
-    if task.goal.skin_thinnest is not None:
-        task, search = _with_sized_skin(task, most_steps, watch)
-    else:
-        search = _search(task, most_steps, watch)
-    task.notes.extend(_notes_of(task, search))
-    sized, proof = _prove(task, search, prove_it)
-    before = _of_one_radius(task, sized.analysis)
+    made = _find_proved(task, most_steps, watch, prove_it)
+    before = _of_one_radius(made.task, made.search.sized.analysis)
     seconds["sizing"] = time.perf_counter() - start
-    return _record(task, replace(search, sized=sized), proof, before, seconds)
+    return _record(made.task, made.search, made.proof, before, seconds)
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,6 +187,7 @@ class _Task:
         monitor: of the whole job.
         cache: of the part's stages.
         skin: the skin that was chosen; None where it is the specification's.
+        ratios: how many times as stressed as they say skin and struts are; None for once.
     """
 
     infill: Infill
@@ -198,6 +199,7 @@ class _Task:
     monitor: Monitor
     cache: StageCache
     skin: SkinDesign | None = None
+    ratios: StressRatios | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,6 +221,61 @@ class _Search:
     even: tuple[Analysis, bool] | None
     taken: Thinned | None
     any_radii: Analysis | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class _ProvedDesign:
+    """A design as files keep it.
+
+    Attributes:
+        task: what was sized, with the skin that was chosen.
+        search: what ended with the design.
+        proof: CalculiX's figures; None where it was not asked.
+        ratios: how many times as stressed as they say CalculiX finds struts and skin, where it is
+            worth it to choose them anew with that; None where it is not.
+    """
+
+    task: _Task
+    search: _Search
+    proof: dict[str, Any] | None
+    ratios: StressRatios | None
+
+    @property
+    def rank(self) -> tuple[float, float]:
+        """Least for the best: the lightest that holds, else what is used of a limit the least."""
+        sized = self.search.sized
+        over = 0.0
+        if not sized.holds:
+            uses = self.proof["uses"] if self.proof is not None else sized.analysis.uses
+            over = max(uses.values(), default=0.0)
+        return over, sized.analysis.volume + self.search.model.skin_volume
+
+
+def _find_proved(
+    task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | None, prove_it: bool
+) -> _ProvedDesign:
+    """The best design of those with which CalculiX's ratios of stress were tried.
+
+    Raises:
+        Cancelled: by the monitor, before there was a design.
+    """
+    best: _ProvedDesign | None = None
+    tried = task
+    for _ in range(PROVED_SKINS):
+        tried = replace(tried, notes=list(task.notes))
+        if task.goal.skin_thinnest is not None:
+            tried, search = _with_sized_skin(tried, most_steps, watch)
+        else:
+            search = _search(tried, most_steps, watch)
+        tried.notes.extend(_notes_of(tried, search))
+        made = _prove(tried, search, prove_it)
+        if best is None or made.rank < best.rank:
+            best = made
+        if made.ratios is None:
+            break
+        tried = replace(tried, ratios=made.ratios)
+    assert best is not None
+    return best
 
 
 def _checked(goal: Goal) -> Goal:
@@ -247,7 +304,7 @@ def _prepare(
 ) -> _Task:
     """The part's struts and skin as elements, their supports and loads."""
     notes = hot(loads.cases, goal.limits)
-    spec = _without_target(solid, spec, goal, cache, progress, notes)
+    spec = without_target(solid, spec, goal, cache, progress, notes)
     # All are sized; which go is decided anew.
     spec = replace(lattice_kind(spec).with_fixed_struts(), remove_below=0.0)
     infill = Infill(solid, spec, monitor=monitor, cache=cache)
@@ -268,20 +325,20 @@ def _with_sized_skin(
         Cancelled: by the monitor, before there was a design; afterwards it ends the search.
     """
     infill, goal = task.infill, task.goal
-    spec, limit = infill.spec, goal.limits.stress
-
+    design, limit = task.skin, goal.limits.stress
+    spec = infill.spec if design is None else design.spec
     watched = _watched(task, 2.5 * most_steps, watch)
-    design: SkinDesign | None = None
-    margin, chosen = MARGIN, task
+    aim = 1.0 if task.ratios is None else CHANGES
+    margin, chosen = MARGIN * aim, task
     for _ in range(SKINS):
-        with task.monitor.stage("sizing", 0.4, 0.9), _named(task.model.problem):
+        with task.monitor.stage("sizing", 0.4, 0.9), telling_free_motions(task.model.problem):
             design = design_skin(
                 infill.solid, spec, task.loads, goal, task.monitor, task.cache, design,
-                most_steps=most_steps, watch=watched, margin=margin,
+                most_steps=most_steps, watch=watched, margin=margin, ratios=task.ratios,
             )  # fmt: skip
         for weighing in range(WEIGHINGS):
             part = Infill(infill.solid, design.spec, monitor=task.monitor, cache=task.cache)
-            model = part_model(part, task.loads, goal, task.cache)
+            model = with_ratios(part_model(part, task.loads, goal, task.cache), task.ratios)
             first = design.radii_at(model.wireframe.nodes)
             first = np.clip(first, model.problem.low, model.problem.high)
             if design.volume is None or weighing == WEIGHINGS - 1:
@@ -295,9 +352,9 @@ def _with_sized_skin(
         if limit is None or search.sized.stopped == "cancelled":
             break
         used = max(skin_peaks(search.model, search.sized.analysis)) / limit
-        if used <= HOLDS:
+        if used <= HOLDS * aim:
             break
-        margin *= 0.995 / used
+        margin *= 0.995 * aim / used
     return chosen, search
 
 
@@ -325,7 +382,7 @@ def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | N
     goal, problem = task.goal, task.model.problem
     watched = _watched(task, most_steps * (2 if goal.remove_thin else 1), watch)
     with task.monitor.stage("sizing", 0.4, 0.95):
-        with _named(problem):
+        with telling_free_motions(problem):
             if task.skin is None:
                 whole = _designed(problem, goal, task.first, most_steps, watched)
             else:
@@ -374,12 +431,15 @@ def _notes_of(task: _Task, search: _Search) -> list[str]:
     return notes
 
 
-def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[str, Any] | None]:
-    """The design as files keep it, held to its limits by CalculiX; and CalculiX's figures."""
+def _prove(task: _Task, search: _Search, prove_it: bool) -> _ProvedDesign:
+    """The design as files keep it, held to its limits by CalculiX; and CalculiX's figures.
+
+    Where CalculiX finds a sized skin or its struts too much stressed, ratios to choose them anew.
+    """
     model, sized, limits, notes = search.model, search.sized, task.goal.limits, task.notes
     cell, length = task.infill.spec.kind.cube, task.infill.filling.spacing
-    problem = model.problem
-    with _named(problem):
+    problem, ratios = model.problem, None
+    with telling_free_motions(problem):
         final = _stored(problem, sized.analysis.radii, limits)
 
     def solve_again(problem: Problem, design: Analysis) -> Proved | None:
@@ -409,19 +469,25 @@ def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[st
                         )
                     final, proof = _stored(problem, found.radii, limits), None
                     proof = solve_again(problem, final)
-                    if not holds:
+                    if not holds and found.most_used > NEARLY:
                         break
+                could, of_skin = sized.holds, 0.0
                 if proof is not None and limit is not None:
                     stress = max(proof.skin)
-                    if stress > SKIN_HOLDS * limit:
+                    of_skin = stress / limit
+                    if of_skin > SKIN_HOLDS:
                         sized = replace(sized, holds=False)
                         notes.append(
                             f"The skin's stress is {stress:.4g} MPa in CalculiX, of {limit:.4g} "
                             "MPa allowed: ask for a higher safety."
                         )
-                if proof is not None and sized.holds and not proof.holds(limits, final):
+                if proof is not None and could and not proof.holds(limits, final):
                     sized = replace(sized, holds=False)
                     notes.append(unproved(problem, proof.uses(limits, final), final))
+                if proof is not None and limit is not None and could:
+                    of_struts = proof.uses(limits, final).get("stress", 0.0)
+                    if of_skin > SKIN_HOLDS or of_struts > PROVED:
+                        ratios = ratios_of(model, final, proof, length, task.ratios)
         except Cancelled:
             proof = None
             notes.append("CalculiX was cancelled: no other solver has proved this design.")
@@ -440,7 +506,8 @@ def _prove(task: _Task, search: _Search, prove_it: bool) -> tuple[Sized, dict[st
             if limit is not None:
                 figures["uses"]["skin stress"] = max(proof.skin) / limit
     notes += hardly_beams(task.infill, model, final.radii, length)
-    return replace(sized, analysis=final), figures
+    search = replace(search, sized=replace(sized, analysis=final))
+    return _ProvedDesign(task, search, figures, ratios)
 
 
 def _of_one_radius(task: _Task, final: Analysis) -> Analysis:
@@ -450,7 +517,7 @@ def _of_one_radius(task: _Task, final: Analysis) -> Analysis:
         np.full(len(first), float(first.mean())),
         final.volume, np.full(len(first), 1e-3 * float(first.min())), problem.high,
     )  # fmt: skip
-    with _named(problem):
+    with telling_free_motions(problem):
         return analyse(problem, same, task.goal.limits)[0]
 
 
@@ -494,7 +561,7 @@ def _record(
     skin = None
     if task.skin is not None:
         skin = governing_thickness(task.skin, task.goal.limits)
-        _with_skin(report, skin_peaks(search.model, search.sized.analysis), task, search.model)
+        _with_skin(report, task, search.model)
         report["skin"] = {
             **thickness_there(search.model, task.infill.domain.mesh),
             "chosen_at": len(task.skin.sized.analysis.radii) - len(task.skin.radii),
@@ -514,13 +581,12 @@ def _record(
     )  # fmt: skip
 
 
-def _with_skin(report: dict[str, Any], peaks: list[float], task: _Task, model: SizingModel) -> None:
+def _with_skin(report: dict[str, Any], task: _Task, model: SizingModel) -> None:
     """Adds a sized skin to a report: steps and limits are of struts and skin together."""
-    report["skin_stress_mpa"] = peaks
     last, limit = report["steps"][-1], task.goal.limits.stress
     last["strut_volume_mm3"] += model.skin_volume
     if limit is not None:
-        use = {"skin stress": max(peaks) / limit}
+        use = {"skin stress": max(report["skin_stress_mpa"]) / limit}
         report["uses"] = {**report["uses"], **use}
         last["uses"] = {**last["uses"], **use}
         report["limits"]["skin stress"] = limit
@@ -550,7 +616,7 @@ def solve_struts(
         Cancelled: the callback said so.
     """
     cache = cache or StageCache()
-    spec = _without_target(solid, spec, Goal(), cache, progress, [])
+    spec = without_target(solid, spec, Goal(), cache, progress, [])
     infill = Infill(solid, spec, monitor=Monitor(progress), cache=cache)
     frame = infill.struts
     radii = np.zeros(len(frame.nodes))
@@ -570,57 +636,6 @@ def _stored(problem: Problem, radii: Floats, limits: Limits) -> Analysis:
     return analyse(problem, steps, limits)[0]
 
 
-def write_radii(part: SizedPart, path: str | os.PathLike[str]) -> None:
-    """Write the radii as a table that ``--radius-field`` reads: x, y, z and radius, mm."""
-    with replacing(path) as file:
-        file.write(b"x,y,z,radius\n")
-        table = np.column_stack([part.points, part.radii])
-        file.writelines(b"%.9g,%.9g,%.9g,%.6f\n" % tuple(row) for row in table.tolist())
-
-
-def values_with_radii(
-    part: SizedPart,
-    path: str | os.PathLike[str],
-    thickness: str | os.PathLike[str] | None = None,
-) -> dict[str, Any]:
-    """What a specification's file says of a sized part whose radii are in a file of their own.
-
-    Args:
-        part: the sized part.
-        path: the file of its radii.
-        thickness: that of its skin's thickness; None where that was not sized.
-    """
-    assert part.spec.radius_grading is not None
-    grading = replace(part.spec.radius_grading, field=str(path))
-    spec = replace(part.spec, radius_grading=grading)
-    if thickness is None:
-        return values_of(spec)
-    return {**values_of(replace(spec, skin_field=None)), "skin_field": str(thickness)}
-
-
-def _without_target(
-    solid: TriangleMesh,
-    spec: LatticeSpec,
-    goal: Goal,
-    cache: StageCache,
-    progress: ProgressCallback | None,
-    notes: list[str],
-) -> LatticeSpec:
-    """The specification with the radius of its target, and what that means in a sentence."""
-    target = spec.target
-    if target is None or spec.output == "domain":
-        return replace(spec, target=None)
-    found = solve_target(solid, spec, progress=progress, cache=cache, meshed=False).spec
-    kept = "the limits now say how thick struts are"
-    if not goal.limits.any:
-        kept = "struts have their mass, distributed anew" if goal.volume is None else "it began so"
-    notes.append(
-        f"The target, a {target.called} of {target.value:.5g}, asks for struts of "
-        f"{found.strut_radius:.4g} mm: {kept}."
-    )
-    return replace(found, target=None)
-
-
 def _designed(problem: Problem, goal: Goal, first: Floats, most_steps: int, watch: Watch) -> Sized:
     """The design."""
     if goal.limits.any:
@@ -633,20 +648,6 @@ def _designed(problem: Problem, goal: Goal, first: Floats, most_steps: int, watc
             "each."
         )
     return stiffest(problem, volume, first, weights=weights, most_steps=most_steps, watch=watch)
-
-
-@contextmanager
-def _named(problem: Problem) -> Iterator[None]:
-    """Adds to a refusal which way the supports let the part go, if any."""
-    try:
-        yield
-    except Cancelled:
-        raise
-    except VolfrepError as error:
-        free = free_motions(problem)
-        if not free:
-            raise
-        raise VolfrepError(" ".join([str(error), *free])) from error
 
 
 def _no_worse(sized: Sized, even: tuple[Analysis, bool]) -> Sized:
@@ -671,6 +672,7 @@ def _without_thin(
             )
             if taken is None:
                 continue
+            taken = replace(taken, model=with_ratios(taken.model, task.ratios))
             found = _designed(
                 taken.model.problem, wanted, taken.radii[taken.rows], most_steps,
                 lambda number, step: watch(before + number, step),

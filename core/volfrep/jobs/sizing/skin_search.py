@@ -8,7 +8,6 @@ is the skin of the part: a field of thicknesses, which its wall follows, as that
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -23,12 +22,13 @@ from ...mesh.triangle_mesh import TriangleMesh
 from ...sizing.analysis import Analysis, Limits, Problem
 from ...sizing.model import SizingModel, with_sized_skin
 from ...sizing.optimise import HOLDS, Sized, Step, Watch, lightest, stiffest, thicken, uniform
+from ...sizing.proof import SHARED, Proved
 from ...sizing.skin_thickness import shares_of
+from ...sizing.stress_ratios import StressRatios, skin_ratio
 from ...sizing.symmetry import Mirrors
 from ...spatial.proximity import closest_points
 from ...util.cache import StageCache
 from ...util.errors import VolfrepError
-from ...util.files import replacing
 from ...util.peaks import most_but_peaks
 from ...util.progress import Monitor
 from ...util.types import Floats
@@ -100,6 +100,7 @@ def design_skin(
     most_steps: int,
     watch: Callable[[int, Step], bool],
     margin: float = 1.0,
+    ratios: StressRatios | None = None,
 ) -> SkinDesign:
     """Choose the thickness of the skin and the radii of struts together.
 
@@ -114,6 +115,7 @@ def design_skin(
         most_steps: of each search.
         watch: told of every step.
         margin: of the limit of stress that the skin is held to.
+        ratios: how many times as stressed as they say skin and struts are; None for once.
 
     Raises:
         VolfrepError: there is no skin, or the bounds make no sense.
@@ -130,6 +132,7 @@ def design_skin(
     while number < searches:
         infill = Infill(solid, spec, monitor=monitor, cache=cache)
         model = part_model(infill, loads, goal, cache, thickest=max(high, solids.deepest))
+        model = with_ratios(model, ratios)
         radii = given_radii(model.wireframe)
         if design is not None:
             radii = design.radii_at(model.wireframe.nodes)
@@ -168,6 +171,49 @@ def design_skin(
         number, solids = number + 1, more
     assert design is not None
     return design
+
+
+def with_ratios(model: SizingModel, ratios: StressRatios | None) -> SizingModel:
+    """A model whose skin and struts are so many times as stressed as they say; None for once."""
+    if ratios is None or model.skin is None:
+        return model
+    places = model.skin.middle[model.skin.shells.triangles].mean(axis=1)
+    skin = replace(model.skin, stress_ratio=ratios.skin.at(places))
+    factor = ratios.of_struts(middles_of(model))
+    return replace(model, skin=skin, problem=replace(model.problem, stress_factor=factor))
+
+
+def ratios_of(
+    model: SizingModel,
+    analysis: Analysis,
+    proof: Proved,
+    apart: float,
+    before: StressRatios | None,
+) -> StressRatios:
+    """How many times as stressed as they say CalculiX finds the skin and struts to be.
+
+    Args:
+        model: with the skin.
+        analysis: its design.
+        proof: what CalculiX says of it.
+        apart: how far apart ratios of the skin are chosen, mm.
+        before: what was found of a design before: struts count as stressed as in either.
+    """  # fmt: skip
+    assert model.skin is not None
+    assert proof.on_skin is not None
+    plain = replace(model.skin, stress_ratio=None)
+    own = plain.stresses(analysis.displacements[model.frame_nodes :])
+    middles, more = middles_of(model), proof.stress_factor
+    struts = np.where(more > 1.0, more / SHARED, 1.0)
+    if before is not None:
+        struts = np.maximum(struts, before.of_struts(middles))
+    return StressRatios(skin_ratio(plain, own, proof.on_skin, apart), middles, struts)
+
+
+def middles_of(model: SizingModel) -> Floats:
+    """(m, 3) mm, of the struts."""
+    structure = model.problem.structure
+    return np.asarray(structure.nodes[structure.beams.struts].mean(axis=1))
 
 
 def weighed(design: SkinDesign, volume: float, mirrors: Mirrors | None) -> SkinDesign:
@@ -350,13 +396,3 @@ def thickness_there(model: SizingModel, domain: TriangleMesh) -> dict[str, Any]:
         "there_over_asked": {"5%": low, "50%": middle, "95%": high},
         "solid_share": skin.solid_share,
     }
-
-
-def write_thickness(spec: LatticeSpec, path: str | os.PathLike[str]) -> None:
-    """Write the skin's thickness as a table that ``--skin-field`` reads: x, y, z, mm."""
-    field = spec.skin_field
-    assert isinstance(field, PointField)
-    with replacing(path) as file:
-        file.write(b"x,y,z,thickness\n")
-        table = np.column_stack([field.points, field.values])
-        file.writelines(b"%.12g,%.12g,%.12g,%.6f\n" % tuple(row) for row in table.tolist())

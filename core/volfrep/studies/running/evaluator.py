@@ -19,7 +19,8 @@ from ...jobs.infill import Infill
 from ...jobs.kinds import lattice_kind
 from ...jobs.preview import PartDepth
 from ...jobs.sizing.goal import goal_of
-from ...jobs.sizing.sizing import size, solve_struts, values_with_radii, write_radii
+from ...jobs.sizing.result_files import values_with_radii, write_radii
+from ...jobs.sizing.sizing import size, solve_struts
 from ...jobs.targets import solve_target
 from ...loads.load_cases import LoadCases
 from ...loads.load_file import read_load_cases

@@ -65,20 +65,22 @@ def set_in_unit(obj: App.DocumentObject, name: str, value: float, unit: str) -> 
 
 def prescribed(constraint: App.DocumentObject, axis: str) -> float | None:
     """The displacement, mm, that a FEM constraint prescribes along x, y or z; None where free."""
-    if getattr(constraint, f"{axis}Fix", False):  # FreeCAD 0.20
-        return 0.0
-    if getattr(constraint, f"{axis}Free"):
-        return None
-    return in_unit(getattr(constraint, f"{axis}Displacement"), "mm")
+    return _prescribed(constraint, axis, f"{axis}Displacement", "mm")
 
 
 def prescribed_turn(constraint: App.DocumentObject, axis: str) -> float | None:
     """The rotation, degrees, that a FEM constraint prescribes about an axis; None where free."""
-    if getattr(constraint, f"rot{axis}Fix", False):  # FreeCAD 0.20
+    return _prescribed(constraint, f"rot{axis}", f"{axis}Rotation", "deg")
+
+
+def _prescribed(
+    constraint: App.DocumentObject, direction: str, name: str, unit: str
+) -> float | None:
+    if getattr(constraint, f"{direction}Fix", False):  # FreeCAD 0.20
         return 0.0
-    if getattr(constraint, f"rot{axis}Free"):
+    if getattr(constraint, f"{direction}Free"):
         return None
-    return in_unit(getattr(constraint, f"{axis}Rotation"), "deg")
+    return in_unit(getattr(constraint, name), unit)
 
 
 def gravity_of(constraint: App.DocumentObject) -> App.Vector:

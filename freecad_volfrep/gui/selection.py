@@ -110,11 +110,11 @@ def selected_infill_and_faces() -> (
     tuple[App.DocumentObject, list[tuple[App.DocumentObject, tuple[str, ...]]]] | None
 ):
     """One lattice infill and the faces of other objects, if nothing else is selected."""
-    from freecad_volfrep.features import LatticeInfill
+    from freecad_volfrep.features.infill.lattice_infill import is_infill
 
     infills, faces = [], []
     for item in Gui.Selection.getSelectionEx():
-        if isinstance(getattr(item.Object, "Proxy", None), LatticeInfill):
+        if is_infill(item.Object):
             infills.append(item.Object)
         elif item.SubElementNames and all(n.startswith("Face") for n in item.SubElementNames):
             faces.append((item.Object, tuple(item.SubElementNames)))
@@ -125,12 +125,10 @@ def selected_infill_and_faces() -> (
 
 def selected_infill() -> App.DocumentObject | None:
     """The selected lattice infill, if it is the only selection."""
-    from freecad_volfrep.features import LatticeInfill
+    from freecad_volfrep.features.infill.lattice_infill import is_infill
 
-    selected = Gui.Selection.getSelection()
-    if len(selected) != 1 or not isinstance(getattr(selected[0], "Proxy", None), LatticeInfill):
-        return None
-    return selected[0]
+    found = selected_infill_or_study()
+    return found if found is not None and is_infill(found) else None
 
 
 def selected_infill_or_study() -> App.DocumentObject | None:

@@ -30,8 +30,7 @@ from .printing.slicer_view import SlicerInfillView as SlicerInfillView  # saved 
 from .qt import QtCore, QtGui
 from .study.study_panel import open_study
 from .undo import complete_steps
-from .view.coarse_view import COARSE, show_proxy
-from .view.filled_view import FILLED, FilledPart, show_filled
+from .view.filled_view import COARSE, FILLED, FilledPart, show_filled, show_proxy
 from .view.simplified_view import SIMPLIFIED, SimplifiedPart
 
 #: The modes beside those of every mesh, and what fills a node for each.

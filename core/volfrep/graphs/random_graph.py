@@ -250,7 +250,7 @@ def _drop_unused(nodes: Floats, struts: Ints) -> tuple[Floats, Ints]:
 
 
 def merge_short_struts(
-    nodes: Floats, struts: Ints, shortest: float, held: Bools | None = None
+    nodes: Floats, struts: Ints, shortest: float, anchors: Bools | None = None
 ) -> tuple[Floats, Ints]:
     """The network with the ends of short struts made one node, again and again, in their middle.
 
@@ -261,9 +261,9 @@ def merge_short_struts(
         nodes: (n, 3) mm.
         struts: (m, 2).
         shortest: length below which they are short, mm.
-        held: (n,) nodes that others are drawn to; None for none.
+        anchors: (n,) nodes that others are drawn to; None for none.
     """
-    held = np.zeros(len(nodes), bool) if held is None else held
+    anchors = np.zeros(len(nodes), bool) if anchors is None else anchors
     while len(struts):
         length = np.linalg.norm(nodes[struts[:, 1]] - nodes[struts[:, 0]], axis=1)
         short = np.flatnonzero(length < shortest)
@@ -276,13 +276,13 @@ def merge_short_struts(
             np.minimum.at(first, struts[short, side], rank)
         chosen = short[(first[struts[short]] == rank[:, None]).all(axis=1)]
         count, label = pieces_of(struts[chosen][:, 0], struts[chosen][:, 1], len(nodes))
-        any_held = np.zeros(count, bool)
-        any_held[label[held]] = True
-        counts = held | ~any_held[label]
+        has_anchor = np.zeros(count, bool)
+        has_anchor[label[anchors]] = True
+        counts = anchors | ~has_anchor[label]
         middle = np.zeros((count, 3))
         np.add.at(middle, label[counts], nodes[counts])
         nodes = middle / np.bincount(label[counts], minlength=count)[:, None]
-        held = any_held
+        anchors = has_anchor
         struts = np.sort(label[struts], axis=1)
         struts = struts[struts[:, 0] != struts[:, 1]]
         struts = np.unique(struts, axis=0)

@@ -42,8 +42,8 @@ def refuse_before_skin(spec: LatticeSpec, solid: TriangleMesh, *, streamed: bool
     if skin is None or skin.bodies:  # what bodies leave is not known by the depth
         return
     at_wall = expected_triangles(spec, min(layer * solid.area, abs(solid.volume)))
-    held = 0.0 if streamed else expected_triangles(spec, abs(solid.volume))
-    if fits_surely(held, at_wall):
+    inner = 0.0 if streamed else expected_triangles(spec, abs(solid.volume))
+    if fits_surely(inner, at_wall):
         return
     from .part_depth import PartDepth  # slow to load
 
@@ -52,8 +52,8 @@ def refuse_before_skin(spec: LatticeSpec, solid: TriangleMesh, *, streamed: bool
     each = abs(solid.volume) / len(depth.points_below(-np.inf))
     # Half of the octants that the wall cuts lies on either side of it.
     cut = 2.0 * max(inside - beyond - 2.0 * (inside - beyond) ** 0.5, 0.0)
-    held = 0.0 if streamed else expected_triangles(spec, each * max(inside - 2.0 * inside**0.5, 0))
-    refuse_memory(spec, CERTAIN_SHARE * held, CERTAIN_SHARE * expected_triangles(spec, each * cut))
+    inner = 0.0 if streamed else expected_triangles(spec, each * max(inside - 2.0 * inside**0.5, 0))
+    refuse_memory(spec, CERTAIN_SHARE * inner, CERTAIN_SHARE * expected_triangles(spec, each * cut))
 
 
 def refuse_too_large(

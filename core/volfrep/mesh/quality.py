@@ -248,9 +248,9 @@ def quality_after_moves(
     if not float((way * (side + 2.0 * way) ** 2).sum()) < least:
         return None
     centre = old.mean(axis=0)
-    held, backend = LocalArray(triangles), ParallelBackend()
+    shared, backend = LocalArray(triangles), ParallelBackend()
     was, now = (
-        _sizes(LocalArray(np.ascontiguousarray(each.T)), centre, held, len(triangles), backend)
+        _sizes(LocalArray(np.ascontiguousarray(each.T)), centre, shared, len(triangles), backend)
         for each in (old, new)
     )
     return replace(

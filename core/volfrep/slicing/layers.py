@@ -67,9 +67,9 @@ class Section:
         """What share of each pixel lies in it, as `pixel_shares`, and their area, mm2."""
         groups = [[self.struts, self.joints], [one[None] for one in self.skin]]
         if self.clip is None:
-            return pixel_shares(groups, lambda held: held[0] | held[1], grid)
+            return pixel_shares(groups, lambda within: within[0] | within[1], grid)
         groups.append([one[None] for one in self.clip])
-        return pixel_shares(groups, lambda held: held[0] & held[2] | held[1], grid)
+        return pixel_shares(groups, lambda within: within[0] & within[2] | within[1], grid)
 
     def outline(self) -> manifold3d.CrossSection:
         """The union as the library's own polygons, without overlaps."""

@@ -109,8 +109,8 @@ def pixel_shares(
     changes = np.sort(np.concatenate(found)) if found else np.zeros(0, np.int64)
     step = np.where(changes % 2, 1, -1)
     of_group = changes // 2 % len(groups)
-    held = [np.cumsum(np.where(of_group == k, step, 0)) > 0 for k in range(len(groups))]
-    solid = np.diff(np.concatenate([[False], rule(held)]).astype(np.int64))
+    within = [np.cumsum(np.where(of_group == k, step, 0)) > 0 for k in range(len(groups))]
+    solid = np.diff(np.concatenate([[False], rule(within)]).astype(np.int64))
     turns = np.flatnonzero(solid)
     return _sum_shares(changes[turns] // (2 * len(groups)), solid[turns], grid)
 

@@ -138,10 +138,10 @@ def _of_struts(bodies: Bodies, struts: Ints, z: float, error: float) -> Floats:
     with np.errstate(divide="ignore", invalid="ignore"):
         level = rise / axis[:, 2]  # where an upright strut's axis meets the plane
     low, high = np.where(upright, level, low), np.where(upright, level, high)
-    held = (low <= high) & (low >= 0) & (high <= bodies.length[struts])
-    axis, start, radius, growth = axis[held], start[held], radius[held], growth[held]
-    slope, upright, safe, rise = slope[held], upright[held], safe[held], rise[held]
-    low, high = low[held], high[held]
+    cut = (low <= high) & (low >= 0) & (high <= bodies.length[struts])
+    axis, start, radius, growth = axis[cut], start[cut], radius[cut], growth[cut]
+    slope, upright, safe, rise = slope[cut], upright[cut], safe[cut], rise[cut]
+    low, high = low[cut], high[cut]
     if not len(low):
         return np.zeros((0, 3, 2))
 

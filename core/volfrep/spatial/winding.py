@@ -119,8 +119,8 @@ class Lines:
             found += [np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c) + 1]
         x, right, y, top = found
         below = self._below
-        held: Bools = below[right, top] - below[x, top] - below[right, y] + below[x, y] > 0
-        return held
+        meets: Bools = below[right, top] - below[x, top] - below[right, y] + below[x, y] > 0
+        return meets
 
     @cached_property
     def _below(self) -> NDArray[np.int32]:

@@ -21,7 +21,7 @@ from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .solid import TpmsSolid
 
-#: Newton's steps of vertices that are held in a face which closes a block, and the least square of
+#: Newton's steps of vertices that stay in a face which closes a block, and the least square of
 #: the slope there.
 FACE_STEPS = 4
 GRAZING = 0.1
@@ -39,13 +39,13 @@ class _Binding:
         feet: (n, 3) on the surface, mm.
         away: (n, 3) the solid's outward direction there.
         is_corner: (n,) corners of the octant, which keep their places.
-        held: (n, 3) coordinates that are kept: on a face that closes a block.
+        on_face: (n, 3) coordinates that are kept: on a face that closes a block.
     """
 
     feet: Floats
     away: Floats
     is_corner: Bools
-    held: Bools
+    on_face: Bools
 
 
 def deform_tpms(
@@ -83,15 +83,15 @@ def deform_tpms(
             back = mapping.to_lattice(found.reshape(-1, 3)).reshape(before.shape)
             middle = (base + sign * (0.25 * size))[:, None]
             seen = mapping.unwrapped(np.concatenate([middle, back], axis=1))[:, 1:]
-            held = bound.held.any(axis=1) & ~bound.is_corner
-            if held.any():
-                fixed = np.broadcast_to(bound.held[held], (len(part), int(held.sum()), 3))
-                seen[:, held] = _in_faces(
-                    np.where(fixed, before[:, held], seen[:, held]), fixed, base, solid, size,
+            capped = bound.on_face.any(axis=1) & ~bound.is_corner
+            if capped.any():
+                fixed = np.broadcast_to(bound.on_face[capped], (len(part), int(capped.sum()), 3))
+                seen[:, capped] = _in_faces(
+                    np.where(fixed, before[:, capped], seen[:, capped]), fixed, base, solid, size,
                     levels, mapping,
                 )  # fmt: skip
-                there = mapping.to_part(seen[:, held].reshape(-1, 3))
-                found[:, held] = there.reshape(len(part), -1, 3)
+                there = mapping.to_part(seen[:, capped].reshape(-1, 3))
+                found[:, capped] = there.reshape(len(part), -1, 3)
             left = np.abs(seen - before)[:, on_face].max(initial=0.0)
             beyond = np.abs(seen - middle).max() - 0.25 * size
             excess = max(excess, float(max(left, beyond)) / (0.5 * size))
@@ -118,13 +118,13 @@ def _bind(octant: Octant, key: OctantKey, solid: TpmsSolid, size: float) -> _Bin
     sign = np.where([key.mirror >> axis & 1 for axis in range(3)], -1.0, 1.0)
     feet = solid.surface.feet(sign * octant.vertices / size)
     # A vertex on a face that counts as inside it is on one that closes a block.
-    held = (octant.places == 1) & (octant.vertices == 0.0)
+    on_face = (octant.places == 1) & (octant.vertices == 0.0)
     ends = (octant.vertices == 0.0) | (octant.vertices == 0.5 * size)
     return _Binding(
         sign * feet.points * size,
         sign * solid.outward(feet)[:, None] * feet.normals,
         ends.all(axis=1),
-        held,
+        on_face,
     )
 
 

@@ -143,7 +143,7 @@ def axes_of(
 
     Args:
         lattice: all its struts, mm.
-        boundary: as for `held`, which `kept` comes from.
+        boundary: as for `find_kept_struts`.
         kept: the pieces that stay.
         openings: faces of the wall that have no skin; None for none.
 

@@ -71,9 +71,9 @@ def clear(
     tiny = used & (np.abs(volume) < smallest)
     loose = solid & (tiny | floating)
     if keep is not None:
-        held = np.zeros(len(volume), bool)
-        held[label[keep]] = True
-        loose |= solid & ~held
+        stays = np.zeros(len(volume), bool)
+        stays[label[keep]] = True
+        loose |= solid & ~stays
     elif bodies:
         order = np.argsort(np.where(solid, -volume, np.inf), kind="stable")
         loose |= solid

@@ -94,7 +94,7 @@ def prune(
     left = remaining(
         placed,
         domain.mesh if placement.is_cut else None,
-        held=has_skin,
+        has_skin=has_skin,
         openings=domain.openings,
         shortest=boundary.shortest_stub,
         dangling=boundary.remove_dangling,
@@ -109,7 +109,7 @@ def remaining(
     lattice: Wireframe,
     boundary: TriangleMesh | None,
     *,
-    held: bool,
+    has_skin: bool,
     shortest: float,
     dangling: bool,
     thickest: float = 0.0,
@@ -123,7 +123,7 @@ def remaining(
     Args:
         lattice: all the struts, mm.
         boundary: closed mesh that cuts them; None for none.
-        held: whether there is a skin behind the wall, which holds what it cuts.
+        has_skin: whether there is a skin behind the wall, which holds what it cuts.
         shortest: struts with a free end that are shorter than this go, mm.
         dangling: all struts with a free end go.
         thickest: struts whose radius is nowhere above it go, mm; 0 for none.
@@ -135,10 +135,10 @@ def remaining(
         pieces = Pieces(every, np.zeros(count), np.ones(count))
     else:
         pieces = pieces_inside(lattice, boundary)
-        if not held:
+        if not has_skin:
             pieces = _to_near_nodes(pieces, lattice, boundary)
     length = pieces.lengths(lattice)
-    ends, fixed = _ends(pieces, lattice, held, openings)
+    ends, fixed = _ends(pieces, lattice, has_skin, openings)
     thin = lattice.radii.max(axis=1) <= thickest
     alive = ~thin[pieces.owner]
     owners = np.bincount(pieces.owner, minlength=count) > 0
@@ -187,7 +187,7 @@ def _to_near_nodes(pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh) -
 
 
 def _ends(
-    pieces: Pieces, lattice: Wireframe, held: bool, openings: TriangleMesh | None
+    pieces: Pieces, lattice: Wireframe, has_skin: bool, openings: TriangleMesh | None
 ) -> tuple[Ints, Bools]:
     """(p, 2) numbers of the pieces' ends: of the node, or one of its own; and which are held."""
     ends = lattice.struts[pieces.owner].astype(np.int64)
@@ -202,8 +202,8 @@ def _ends(
         ends[cut, side] = count + np.arange(int(cut.sum()))
         count += int(cut.sum())
     fixed = np.zeros(count, bool)
-    fixed[len(lattice.nodes) :] = held
-    if held and openings is not None:
+    fixed[len(lattice.nodes) :] = has_skin
+    if has_skin and openings is not None:
         fixed[len(lattice.nodes) :] = ~lie_on(openings, np.concatenate(points))
     return ends, fixed
 

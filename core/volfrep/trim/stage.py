@@ -156,9 +156,9 @@ def cleared_cut(
     surface, removed, lost = trimmed.surface, 0, 0.0
     if has_skin and not (with_skin or keep_pieces):
         on_boundary = np.flatnonzero(trimmed.on_boundary)
-        held = clear(surface, smallest, monitor, keep=on_boundary)
-        surface = held.surface
-        removed, lost = held.pieces_removed, held.volume_removed
+        attached = clear(surface, smallest, monitor, keep=on_boundary)
+        surface = attached.surface
+        removed, lost = attached.pieces_removed, attached.volume_removed
         if removed and not surface.triangles:
             raise _nothing_holds()
     del trimmed  # nobody else has it: the mesh before slivers go, in the way of that after
@@ -275,8 +275,8 @@ def _open_faces(
     elif with_skin:
         rest = clear(surface, smallest, monitor, bodies=inspect(solid).quality.bodies)
     else:
-        held = _on_skin(surface.mesh, domain, openings, precision)
-        rest = clear(surface, smallest, monitor, keep=held)
+        on_skin = _on_skin(surface.mesh, domain, openings, precision)
+        rest = clear(surface, smallest, monitor, keep=on_skin)
     if not rest.surface.triangles:
         raise _nothing_holds()
     return replace(

@@ -91,8 +91,8 @@ def _pieces(value: Any) -> Iterator[bytes]:
         if hasattr(value, "identity"):
             yield from _pieces(value.identity())
         else:
-            held_by = ((item, getattr(value, item.name)) for item in fields(value) if item.compare)
-            yield from _pieces({item.name: held for item, held in held_by if _says(item, held)})
+            given = ((item, getattr(value, item.name)) for item in fields(value) if item.compare)
+            yield from _pieces({item.name: one for item, one in given if _says(item, one)})
     else:
         raise TypeError(f"A {type(value).__name__} has no digest.")
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
-from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+from freecad_volfrep.features.infill.lattice_infill import is_infill
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.sentences import report_line
 from volfrep.util.errors import VolfrepError
@@ -54,7 +54,7 @@ def infill_made_of(obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, 
         VolfrepError: that is no lattice infill, or it is out of date.
     """
     require_engine()
-    if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
+    if not is_infill(obj):
         raise VolfrepError(f"'{obj.Label}' is a mesh without struts: choose a lattice infill.")
     made: tuple[TriangleMesh, LatticeSpec, StageCache] = obj.Proxy.inputs(obj)
     return made

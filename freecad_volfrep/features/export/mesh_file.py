@@ -12,7 +12,7 @@ import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.infill.freshness import tell_stale
-from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+from freecad_volfrep.features.infill.lattice_infill import is_infill
 from freecad_volfrep.translation import translate
 from volfrep.output.form import FORMS, unknown
 from volfrep.util.errors import VolfrepError
@@ -81,7 +81,7 @@ def formats_of(obj: App.DocumentObject) -> list[Format]:
     if isinstance(getattr(obj, "Proxy", None), SlicerInfill):
         own = PROJECTS[obj.Slicer]
         return [own, *(form for form in PROJECTS.values() if form is not own)]
-    infill = isinstance(getattr(obj, "Proxy", None), LatticeInfill)
+    infill = is_infill(obj)
     return [form for form in FORMATS if infill or form.content == "mesh"]
 
 

@@ -243,11 +243,11 @@ def make_slicer_infill(
 def source_of(obj: App.DocumentObject) -> str:
     """Which of `FOLLOWS` a density can follow an object by; empty for none."""
     from freecad_volfrep.bridge.fem_fields import is_result
-    from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+    from freecad_volfrep.features.infill.lattice_infill import is_infill
 
     if is_result(obj):
         return "FEM result"
-    is_sized = isinstance(getattr(obj, "Proxy", None), LatticeInfill) and obj.SizedRadii
+    is_sized = is_infill(obj) and obj.SizedRadii
     return "Sized lattice" if is_sized else ""
 
 
@@ -344,7 +344,7 @@ def pieces_of(obj: App.DocumentObject, is_placed: bool = False) -> list[Triangle
 def _field(obj: App.DocumentObject, follows: str) -> tuple[PointField, str]:
     """The field that the density follows, and its curve."""
     from freecad_volfrep.bridge.fem_fields import field_of_result
-    from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+    from freecad_volfrep.features.infill.lattice_infill import is_infill
     from volfrep.design.grading import read_point_field
 
     curve = obj.Curve.strip()
@@ -365,7 +365,7 @@ def _field(obj: App.DocumentObject, follows: str) -> tuple[PointField, str]:
     from volfrep.design.scattered_field import PointField
     from volfrep.jobs.figures.sized_density import sized_densities
 
-    if not isinstance(getattr(source, "Proxy", None), LatticeInfill):
+    if not is_infill(source):
         raise VolfrepError(f"'{source.Label}' is no lattice infill: choose one that was sized.")
     spec, _ = source.Proxy.read(source)
     field, own = sized_densities(spec)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import FreeCAD as App
 
-from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+from freecad_volfrep.features.infill.lattice_infill import is_infill
 from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError, listed
 
@@ -102,7 +102,7 @@ KINDS = (
 
 def kinds_of(obj: App.DocumentObject) -> list[Kind]:
     """The kinds of shapes that this mesh object can be made into."""
-    infill = isinstance(getattr(obj, "Proxy", None), LatticeInfill)
+    infill = is_infill(obj)
     return [kind for kind in KINDS if infill or kind.of_any_mesh]
 
 

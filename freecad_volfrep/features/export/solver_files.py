@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
-from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+from freecad_volfrep.features.infill.lattice_infill import is_infill
 from freecad_volfrep.features.infill.materials import for_solver
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.sentences import report_line
@@ -148,7 +148,7 @@ def beams_in_document(obj: App.DocumentObject) -> BeamModel:
     from volfrep.jobs.beam_part import beam_model
     from volfrep.process.worker import Call
 
-    if not isinstance(getattr(obj, "Proxy", None), LatticeInfill):
+    if not is_infill(obj):
         raise VolfrepError(f"'{obj.Label}' is a mesh without beams: export its mesh.")
     solid, spec, cache = obj.Proxy.inputs(obj)
     model = run_job(

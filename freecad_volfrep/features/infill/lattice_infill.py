@@ -372,6 +372,21 @@ class LatticeInfill:
 LatticeInfill.__module__ = saved_module("features")
 
 
+def is_infill(obj: App.DocumentObject) -> bool:
+    """Whether an object is a lattice infill."""
+    return isinstance(getattr(obj, "Proxy", None), LatticeInfill)
+
+
+def check_infill(obj: App.DocumentObject) -> None:
+    """Refuse what is no lattice infill.
+
+    Raises:
+        VolfrepError: it is none.
+    """
+    if not is_infill(obj):
+        raise VolfrepError(f"'{obj.Label}' is not a lattice infill: choose one.")
+
+
 def say_revived(obj: App.DocumentObject) -> None:
     """Say that an infill has its proxy again, or what of its values is spoiled."""
     obj.Status = REVIVED

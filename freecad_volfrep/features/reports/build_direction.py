@@ -9,7 +9,7 @@ import FreeCAD as App
 import numpy as np
 
 from freecad_volfrep.engine import require_engine
-from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+from freecad_volfrep.features.infill.lattice_infill import is_infill
 from freecad_volfrep.features.infill.materials import process_of
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from volfrep.util.errors import VolfrepError
@@ -18,11 +18,6 @@ from .print_check import PrintCheck, make_print_check
 
 if TYPE_CHECKING:
     from volfrep.reports.orientation import Orientation, Orientations
-
-
-def is_infill(obj: App.DocumentObject) -> bool:
-    """Whether an object is a lattice infill."""
-    return isinstance(getattr(obj, "Proxy", None), LatticeInfill)
 
 
 def first_inclination(obj: App.DocumentObject) -> float:

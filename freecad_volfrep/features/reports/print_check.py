@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
-from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+from freecad_volfrep.features.infill.lattice_infill import check_infill, is_infill
 from freecad_volfrep.features.infill.materials import process_of
 from freecad_volfrep.features.jobs.job import State
 from freecad_volfrep.features.jobs.progress import job_title, run_job
@@ -98,7 +98,7 @@ class PrintCheck(SavesNothing):
 
     def _run(self, obj: App.DocumentObject) -> None:
         infill = obj.Infill
-        if infill is None or not isinstance(getattr(infill, "Proxy", None), LatticeInfill):
+        if infill is None or not is_infill(infill):
             raise VolfrepError("There is nothing to look at: choose a lattice infill as Infill.")
         require_engine()
         from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
@@ -157,8 +157,7 @@ def make_print_check(
     from volfrep.reports.printability import unit_direction
     from volfrep.reports.processes import find_process
 
-    if not isinstance(getattr(infill, "Proxy", None), LatticeInfill):
-        raise VolfrepError(f"'{infill.Label}' is not a lattice infill: choose one.")
+    check_infill(infill)
     name = find_process(process or process_of(infill) or "FFF").name
     unit_direction(build_direction)
     obj = doc.addObject("Mesh::FeaturePython", "PrintCheck")

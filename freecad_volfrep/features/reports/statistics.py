@@ -10,7 +10,7 @@ from typing import Any
 import FreeCAD as App
 
 from freecad_volfrep.features.infill.freshness import tell_stale
-from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+from freecad_volfrep.features.infill.lattice_infill import is_infill
 from freecad_volfrep.features.infill.materials import material_of
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.properties.quantities import density_of, mass_of
@@ -54,7 +54,7 @@ _FIGURES: tuple[tuple[str, str], ...] = (
 
 def infills_of(doc: App.Document) -> list[App.DocumentObject]:
     """The lattice infills of a document, in the order in which they were made."""
-    return [obj for obj in doc.Objects if isinstance(getattr(obj, "Proxy", None), LatticeInfill)]
+    return [obj for obj in doc.Objects if is_infill(obj)]
 
 
 def statistics(infills: list[App.DocumentObject]) -> list[Table]:

@@ -16,7 +16,7 @@ import FreeCAD as App
 
 from freecad_volfrep.deps import engine_folders, python_executable
 from freecad_volfrep.engine import require_engine
-from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+from freecad_volfrep.features.infill.lattice_infill import check_infill, is_infill
 from freecad_volfrep.features.infill.materials import material_of
 from freecad_volfrep.features.infill.values import json_values, values_in_effect
 from freecad_volfrep.features.jobs.progress import job_title, run_job
@@ -112,8 +112,7 @@ def make_design_study(
     Raises:
         VolfrepError: that is no lattice infill, or a property cannot vary so; nothing is added.
     """
-    if not isinstance(getattr(infill, "Proxy", None), LatticeInfill):
-        raise VolfrepError(f"'{infill.Label}' is not a lattice infill: choose one.")
+    check_infill(infill)
     lines = [f"{name}: {text}" for name, text in vary.items()]
     variations(infill, lines)
     obj = doc.addObject("App::FeaturePython", "DesignStudy")
@@ -269,7 +268,7 @@ def study_of(obj: App.DocumentObject) -> Study:
     from volfrep.studies.study import Front, Study
 
     infill = obj.Infill
-    if not isinstance(getattr(infill, "Proxy", None), LatticeInfill):
+    if not is_infill(infill):
         raise VolfrepError("There is nothing to vary: choose a lattice infill as Infill.")
     vary = variations(infill, obj.Vary)
     spec, solid = infill.Proxy.read(infill)
@@ -419,7 +418,7 @@ def apply_design(obj: App.DocumentObject, key: str) -> bool:
         VolfrepError: there is no such design, or the infill has gone.
     """
     row, infill = _row(obj, key), obj.Infill
-    if not isinstance(getattr(infill, "Proxy", None), LatticeInfill):
+    if not is_infill(infill):
         raise VolfrepError("The infill of this study has gone: choose another one as Infill.")
     for name in varied_of_study(obj):
         parameter, value = parameter_of(name), row[name]

@@ -94,12 +94,12 @@ class StrutEntry(Entry):
             file = translate(_CONTEXT, "not saved")
         if self.path:
             file = Path(self.path).name
-        held = _STRETCHING if stretched_strains(cell) == 6 else _BENDING
+        carries = _STRETCHING if stretched_strains(cell) == 6 else _BENDING
         return (
             (translate(_CONTEXT, "Nodes"), len(cell.nodes)),
             (translate(_CONTEXT, "Struts"), len(cell.struts)),
             (translate(_CONTEXT, "Maxwell number"), cell.maxwell_number),
-            (translate(_CONTEXT, "Carries load by"), translate(_CONTEXT, held)),
+            (translate(_CONTEXT, "Carries load by"), translate(_CONTEXT, carries)),
             *super().rows(),
             (translate(_CONTEXT, "File"), file),
         )

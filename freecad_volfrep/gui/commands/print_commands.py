@@ -7,7 +7,7 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.bridge.solids import is_fillable, resolve_base
-from freecad_volfrep.features.infill.lattice_infill import LatticeInfill
+from freecad_volfrep.features.infill.lattice_infill import is_infill
 from freecad_volfrep.gui.messages import errors_shown
 from freecad_volfrep.gui.selection import only_shown_solid, only_solid, selected_solids
 from freecad_volfrep.translation import translate
@@ -30,7 +30,7 @@ def solid_or_slicer_infill() -> App.DocumentObject | None:
     elif others:
         solids = [resolve_base(one) for one in others if is_fillable(one)]
         solids = solids if len(others) == 1 else []
-    elif isinstance(getattr(source, "Proxy", None), LatticeInfill):
+    elif is_infill(source):
         solids = [source.Base] if source.Base is not None else []
     else:
         solids = only_shown_solid()

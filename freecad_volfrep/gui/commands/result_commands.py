@@ -92,10 +92,10 @@ def size_lattice(obj: App.DocumentObject) -> None:
     Args:
         obj: the infill, or a solid, which is given one with sizes that suit it.
     """
-    from freecad_volfrep.features import LatticeInfill
+    from freecad_volfrep.features.infill.lattice_infill import is_infill
     from freecad_volfrep.gui.sizing.size_panel import SizePanel
 
-    if isinstance(getattr(obj, "Proxy", None), LatticeInfill):
+    if is_infill(obj):
         with errors_shown():
             Gui.Control.showDialog(SizePanel(obj))
         return

@@ -10,10 +10,10 @@ import FreeCADGui as Gui
 import numpy as np
 
 from freecad_volfrep import preferences
+from freecad_volfrep.features.infill.lattice_infill import is_infill
 from freecad_volfrep.features.reports.build_direction import (
     find_directions,
     first_inclination,
-    is_infill,
     set_build_direction,
     turn_part,
 )

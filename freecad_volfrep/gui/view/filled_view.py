@@ -25,8 +25,9 @@ if TYPE_CHECKING:
     from volfrep.mesh.display_parts import DrawnPart
     from volfrep.mesh.triangle_mesh import TriangleMesh
 
-#: The display mode.
+#: The display modes: of the mesh itself, and of a proxy in the place of millions of triangles.
 FILLED = "Skin and Lattice"
+COARSE = "Coarse"
 #: The inner wall is so much nearer to white than the skin.
 WALL_LIGHTER = 0.35
 
@@ -157,6 +158,11 @@ def _joined(arrays: list[NDArray[np.float32]]) -> NDArray[np.float32]:
 def show_filled(obj: Any, node: Any) -> FilledPart:
     """Fill the node with an infill's mesh, or a proxy that the pieces come to."""
     return show_parts(obj, node, is_coarse=False)
+
+
+def show_proxy(obj: Any, node: Any) -> FilledPart:
+    """Fill the node with a coarse proxy of an infill's mesh, drawn as the mesh itself would be."""
+    return show_parts(obj, node, is_coarse=True)
 
 
 def show_parts(obj: Any, node: Any, is_coarse: bool) -> FilledPart:

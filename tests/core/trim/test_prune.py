@@ -50,7 +50,7 @@ TAILED = graph(
     ],
 )
 def test_free_ends_go_from_the_tip_on(shortest, dangling, kept, counts):
-    left = remaining(TAILED, None, held=False, shortest=shortest, dangling=dangling)
+    left = remaining(TAILED, None, has_skin=False, shortest=shortest, dangling=dangling)
     assert left.kept.tolist() == [bool(k) for k in kept]
     assert (left.stubs, left.dangling) == counts
 
@@ -58,7 +58,7 @@ def test_free_ends_go_from_the_tip_on(shortest, dangling, kept, counts):
 def test_thin_struts_go_and_those_that_then_have_a_free_end():
     radii = np.array([[0.1, 0.1], [0.1, 0.3], [0.3, 0.3], [0.3, 0.1], [0.1, 0.1]])
     lattice = replace(TAILED, radii=radii)
-    free = {"held": False, "shortest": 0.0, "thickest": 0.1}
+    free = {"has_skin": False, "shortest": 0.0, "thickest": 0.1}
     left = remaining(lattice, None, dangling=False, **free)
     assert left.kept.tolist() == [False, True, True, True, False]
     assert (left.thin, left.stubs, left.dangling) == (2, 0, 0)
@@ -69,24 +69,24 @@ def test_thin_struts_go_and_those_that_then_have_a_free_end():
 
 def test_a_skin_holds_what_it_cuts_and_an_open_wall_does_not():
     wall = samples.box((4.0, 10.0, 2.0), (-0.7, -5.0, -1.1))  # through the tail's first strut
-    held = remaining(TAILED, wall, held=True, shortest=0.0, dangling=True)
-    free = remaining(TAILED, wall, held=False, shortest=0.0, dangling=True)
+    held = remaining(TAILED, wall, has_skin=True, shortest=0.0, dangling=True)
+    free = remaining(TAILED, wall, has_skin=False, shortest=0.0, dangling=True)
     assert held.kept.tolist() == [True] * 5
     # The last strut lies outside: it is cut away, and not counted.
     assert free.kept.tolist() == [True, True, True, False, True]
     assert free.dangling == 1
-    short = remaining(TAILED, wall, held=False, shortest=1.2, dangling=False)
+    short = remaining(TAILED, wall, has_skin=False, shortest=1.2, dangling=False)
     assert not short.stubs  # 1.3 of it are inside
-    assert remaining(TAILED, wall, held=False, shortest=1.4, dangling=False).stubs == 1
+    assert remaining(TAILED, wall, has_skin=False, shortest=1.4, dangling=False).stubs == 1
 
 
 def test_a_wall_just_below_the_nodes_leaves_them_joined():
     """Boxes like cells: a lattice's outermost nodes often lie on the wall, or a hair outside."""
     square = graph([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]], [[0, 1], [1, 2], [2, 3], [3, 0]])
     wall = samples.box((1.99, 4.0, 2.0), (-0.01, -1.0, -1.0))  # leaves two nodes 0.02 outside
-    assert remaining(square, wall, held=False, shortest=0.0, dangling=True).kept.all()
+    assert remaining(square, wall, has_skin=False, shortest=0.0, dangling=True).kept.all()
     wall = samples.box((1.9, 4.0, 2.0), (-0.01, -1.0, -1.0))
-    left = remaining(square, wall, held=False, shortest=0.0, dangling=True)
+    left = remaining(square, wall, has_skin=False, shortest=0.0, dangling=True)
     assert left.kept.tolist() == [False, True, False, False]  # the one outside is cut away
 
 

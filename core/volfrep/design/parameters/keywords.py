@@ -172,8 +172,8 @@ def _value(name: str, value: Any) -> Any:
         return value
     row, plain = BY_NAME[name], _json_value(value)
     if plain is None or not isinstance(plain, (str, int, float, list)):
-        held = name in (*WORDS, "keep_solid") or isinstance(value, Field)
-        if plain is None or (held and not callable(value) and not isinstance(value, bytes)):
+        is_object = name in (*WORDS, "keep_solid") or isinstance(value, Field)
+        if plain is None or (is_object and not callable(value) and not isinstance(value, bytes)):
             return value
         kind = type(value).__name__
         raise VolfrepError(f"The parameter '{name}' does not take a {kind}: {_values_taken(row)}.")

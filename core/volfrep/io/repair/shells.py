@@ -148,9 +148,9 @@ def _refuse_nested(
         around.point, weights=around.number * wanted[around.other], minlength=len(around.points)
     )
     free = np.bincount(around.point_shell[total < 0.5], minlength=around.shells) > 0
-    held = ~free & (wanted > 0) & (around.shells > 1)
-    if held.any():
-        first = int(np.flatnonzero(held)[0])
+    buried = ~free & (wanted > 0) & (around.shells > 1)
+    if buried.any():
+        first = int(np.flatnonzero(buried)[0])
         place = around.points[np.flatnonzero(around.point_shell == first)[0]]
         raise VolfrepError(
             f"'{name}' has a shell near {place_text(place)} that lies inside a body and is wound "

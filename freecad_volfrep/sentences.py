@@ -33,6 +33,7 @@ SENTENCES = marked(
     "Cancelled: what was done is kept, and the next start goes on from there.",
     "Saved by a FreeCAD without VOLFREP: recompute, and whatever was changed there is followed",
     "Not run yet",
+    "Results were of a wrong type, as another program leaves them: recompute for new ones",
     "{designs} designs of {infill}",
     # Advice, and what keeps a preview from being shown.
     "{material} is printed by {processes}, not by {process}.",
@@ -161,6 +162,8 @@ SENTENCES = marked(
     # Loads and Sizing, Design Study.
     "No load case is chosen: tick at least one.",
     "Least mass needs a limit: of stress, displacement, buckling, frequency.",
+    "The document has no load case: make one with Loads and Sizing, or an analysis with the FEM "
+    "workbench, with constraints on the solid's faces, edges or vertices.",
     "Neither the infill nor its load cases have a material: choose one for the infill.",
     "'{label}' refers to no face, edge or vertex: choose some of the part's.",
     "{name} has no values: write them as 6, 8, 10 or as 6 to 10 in 5.",

@@ -16,7 +16,8 @@ from freecad_volfrep.gui.draw.legend import Legend
 from freecad_volfrep.gui.jobs.background import begin
 from freecad_volfrep.gui.jobs.in_steps import do_in_steps, drop_steps
 from freecad_volfrep.gui.messages import tell_error
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked
+from freecad_volfrep.sentences import localise
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
 from volfrep.util.errors import Cancelled, VolfrepError
 
 if TYPE_CHECKING:
@@ -211,7 +212,7 @@ class Colouring:
             if quantity in (*OF_LOADS, *GOVERNING):
                 options.update(carried_by(obj, quantity))
         except VolfrepError as error:
-            self.why, self._asked = str(error), None
+            self.why, self._asked = localise(translate("VolfrepColours", str(error))), None
             tell_error(self.why)
             return
         kinds = self._kinds()

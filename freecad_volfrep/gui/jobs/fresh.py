@@ -13,6 +13,7 @@ import FreeCADGui as Gui
 from freecad_volfrep.features.infill.freshness import why_stale
 from freecad_volfrep.gui.messages import tell_error
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
+from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import translate
 
 from .updating import begin_update
@@ -107,6 +108,6 @@ def _recompute(infills: list[App.DocumentObject], then: Callable[[], None]) -> N
         return
     why = why_stale(obj)
     if why:
-        tell_error(f"{obj.Label}: {obj.Status}")
+        tell_error(f"{obj.Label}: {localise(obj.Status)}")
     else:
         _recompute(others, then)

@@ -4054,6 +4054,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Veraltet: Werte wurden geändert, seit dieses Netz gemacht wurde; neu berechnen</translation>
     </message>
     <message>
+      <source>Results were of a wrong type, as another program leaves them: recompute for new ones</source>
+      <translation>Ergebnisse waren von falschem Typ, wie ein anderes Programm sie hinterlässt: neu berechnen ergibt neue</translation>
+    </message>
+    <message>
       <source>Saved by a FreeCAD without VOLFREP: recompute, and whatever was changed there is followed</source>
       <translation>Von einem FreeCAD ohne VOLFREP gespeichert: neu berechnen, dann wird übernommen, was dort geändert wurde</translation>
     </message>
@@ -4080,6 +4084,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>The cell type Custom needs a cell: choose its .json file as CellFile.</source>
       <translation>Der Zelltyp Custom braucht eine Zelle: ihre .json-Datei als CellFile wählen.</translation>
+    </message>
+    <message>
+      <source>The document has no load case: make one with Loads and Sizing, or an analysis with the FEM workbench, with constraints on the solid's faces, edges or vertices.</source>
+      <translation>Das Dokument hat keinen Lastfall: einen mit Lasten und Auslegung anlegen, oder eine Analyse mit dem FEM-Arbeitsbereich, mit Randbedingungen an Flächen, Kanten oder Ecken des Körpers.</translation>
     </message>
     <message>
       <source>The engine failed with a {kind} ({error}), which is a defect of VOLFREP: please report it with the traceback in the report view's log messages.</source>

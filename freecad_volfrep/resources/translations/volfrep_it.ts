@@ -4054,6 +4054,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Non aggiornato: i valori sono cambiati da quando questa mesh è stata creata; ricalcolare</translation>
     </message>
     <message>
+      <source>Results were of a wrong type, as another program leaves them: recompute for new ones</source>
+      <translation>I risultati erano di tipo errato, come li lascia un altro programma: ricalcolare per averne di nuovi</translation>
+    </message>
+    <message>
       <source>Saved by a FreeCAD without VOLFREP: recompute, and whatever was changed there is followed</source>
       <translation>Salvato da un FreeCAD senza VOLFREP: ricalcolare, e ciò che vi è stato cambiato viene seguito</translation>
     </message>
@@ -4080,6 +4084,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>The cell type Custom needs a cell: choose its .json file as CellFile.</source>
       <translation>Il tipo di cella Custom richiede una cella: scegliere il suo file .json come CellFile.</translation>
+    </message>
+    <message>
+      <source>The document has no load case: make one with Loads and Sizing, or an analysis with the FEM workbench, with constraints on the solid's faces, edges or vertices.</source>
+      <translation>Il documento non ha casi di carico: crearne uno con Carichi e dimensionamento, oppure un'analisi con l'ambiente FEM, con vincoli su facce, spigoli o vertici del solido.</translation>
     </message>
     <message>
       <source>The engine failed with a {kind} ({error}), which is a defect of VOLFREP: please report it with the traceback in the report view's log messages.</source>

@@ -179,16 +179,19 @@ def benchmark_table(found: list[dict[str, Any]]) -> str:
 def homogenised_table(found: dict[str, Any]) -> str:
     """Errors of homogenised parts, %, and how much too stiffly their beams shear."""
     rows = [
-        (cell, row["bent"], row["pulled"], row["sideways"], row["shear"])
+        (cell, *(row[name] for name in ("bent", "pulled", "sideways", "itself", "shear")))
         for cell, row in found["homogenised"].items()
     ]
-    lines = ["| cell | skin, bent | pulled | sideways | beams' shear |\n|---|---|---|---|---|\n"]
+    lines = [
+        "| cell | skin, bent | pulled | sideways | with the beams' tensor | beams' shear |\n"
+        "|---|---|---|---|---|---|\n"
+    ]
     for cell, *errors in rows:
         lines.append(f"| {cell} | {' | '.join(f'{100 * error:+.1f}' for error in errors)} |\n")
     gyroid = found["gyroid"]
     told = (f"{100 * gyroid[way]:+.1f}, {100 * gyroid[f'{way}, limit']:+.1f}" for way in
             ("pulled", "sideways"))  # fmt: skip
-    return "".join([*lines, f"| Gyroid | | {' | '.join(told)} | |\n"])
+    return "".join([*lines, f"| Gyroid | | {' | '.join(told)} | | |\n"])
 
 
 def plot(specimens: list[dict[str, Any]], found: dict[str, Any]) -> None:

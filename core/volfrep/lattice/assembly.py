@@ -63,14 +63,16 @@ _STEPS = np.stack(np.unravel_index(np.arange(27), (3, 3, 3)), axis=1)
 
 def lay_out(grid: OctantGrid, octants: dict[OctantKey, Octant]) -> Layout:
     """Number the vertices of all the octants of the grid, each once."""
-    count = np.zeros(_complex_shape(grid), np.int32)
+    count = np.zeros(int(np.prod(_complex_shape(grid))), np.int32)
     places = [np.argwhere(grid.kind == k) for k in range(len(grid.keys))]
     for key, place in zip(grid.keys, places, strict=True):
         number = np.bincount(octants[key].entity, minlength=27)
+        x, y, z = _entity_rows(grid, place)
         for entity in np.flatnonzero(number):
-            count[tuple(_entity_positions(grid, place, _STEPS[entity]).T)] = number[entity]
-    end = np.cumsum(count.ravel(), dtype=np.int64)
-    base = (end - count.ravel()).astype(np.int32).reshape(count.shape)
+            i, j, k = _STEPS[entity]
+            count[x[i] + y[j] + z[k]] = number[entity]
+    end = np.cumsum(count, dtype=np.int64)
+    base = (end - count).astype(np.int32).reshape(_complex_shape(grid))
     return Layout(grid, octants, places, base, int(end[-1]))
 
 
@@ -85,8 +87,9 @@ def numbers_at(
     """(k, n) numbers of vertices of an octant at k places, by their entities and ranks on these."""
     used, column = np.unique(entity, return_inverse=True)
     first = np.empty((len(place), len(used)), np.int32)
-    for k, e in enumerate(used):
-        first[:, k] = layout.base[tuple(_entity_positions(layout.grid, place, _STEPS[e]).T)]
+    base, (x, y, z) = layout.base.ravel(), _entity_rows(layout.grid, place)
+    for column_of, (i, j, k) in enumerate(_STEPS[used]):
+        first[:, column_of] = base[x[i] + y[j] + z[k]]
     result: NDArray[np.int32] = first[:, column.ravel()] + rank
     return result
 
@@ -274,12 +277,19 @@ def _complex_shape(grid: OctantGrid) -> tuple[int, ...]:
     )
 
 
-def _entity_positions(
-    grid: OctantGrid, place: NDArray[np.int64], step: NDArray[np.int64]
-) -> NDArray[np.int64]:
-    """Where an entity of octants is on the complex: reflected frames run backwards."""
-    result: NDArray[np.int64] = 2 * place + np.where(place % 2 == 0, 2 - step, step)
-    result %= np.array(_complex_shape(grid))
+def _entity_rows(grid: OctantGrid, place: NDArray[np.int64]) -> list[list[NDArray[np.int64]]]:
+    """By axis and step along it, what sums up to entities' rows on the complex of (k, 3) octants.
+
+    Reflected frames run backwards.
+    """
+    shape = _complex_shape(grid)
+    result = []
+    for axis, pitch in enumerate((shape[1] * shape[2], shape[2], 1)):
+        column = place[:, axis]
+        middle = 2 * column + 1
+        way = np.where(column % 2 == 0, -1, 1)
+        ends = (middle - way, middle, middle + way)
+        result.append([end % shape[axis] * pitch for end in ends])
     return result
 
 

@@ -19,8 +19,8 @@ from ..octants.octant_spec import OctantSpec
 from ..util.errors import VolfrepError
 from ..util.types import Bools
 
-#: Facets that stray more than so many times as far as asked for are told: 1.5 is what is kept to
-#: inside, and at the corners of blocks it is known to be 2 (docs/limits.md).
+#: Facets that stray more than so many times as far as asked for are told: 1.5 is what is kept to,
+#: but for cells that docs/limits.md names.
 DEVIATION_WARNED = 2.25
 
 

@@ -56,14 +56,16 @@ LOOKED_AT = 0.8
 REFINEMENTS = 16
 #: Steps of the fit after vertices are merged, and after facets are divided.
 REFITS = (2, 4)
-#: Of a piece no more facets are divided when it has so many times those that it began with.
-GROWTH = 2.0
+#: Of a piece no more facets are divided when it has this many and so many times those that it began
+#: with: a ball's eighth begins with nine.
+ROOM, GROWTH = 50, 2.0
 #: Nor when in so many rounds its worst facet has come nearer by less than this.
 STALLED, NEARER = 8, 0.95
-#: Sine of the smallest angle that facets may be left with: what strays however it is divided, as
-#: where a crease runs out, would end in needles.
+#: Sine of the smallest angle that facets may be left with: a piece with sharper ones is fitted so
+#: often more, and counts as farther by the root of how much sharper they are, by `FARTHER` at
+#: most. What strays however it is divided, as where a crease runs out, would end in needles.
 SHARPEST = 0.088
-#: They are left all the same where without them a piece strays so many times as far.
+EASED = 2
 FARTHER = 2.0
 
 
@@ -217,8 +219,10 @@ def _refined(meshed: Meshed, deviation: float, monitor: Monitor) -> Meshed:
     rounds: list[Meshed] = []
     reached: list[Floats] = []
     beyond: list[Ints] = []
+    sines: list[Floats] = []
     pieces = int(meshed.surface.piece[-1]) + 1 if len(meshed.surface.piece) else 0
-    most = GROWTH * np.bincount(meshed.surface.piece[meshed.surface.triangles[:, 0]], None, pieces)
+    count = np.bincount(meshed.surface.piece[meshed.surface.triangles[:, 0]], None, pieces)
+    most, eased = ROOM + GROWTH * count, np.zeros(pieces, np.int64)
     while True:
         monitor.tick()
         surface = meshed.surface
@@ -227,29 +231,32 @@ def _refined(meshed: Meshed, deviation: float, monitor: Monitor) -> Meshed:
         reached.append(np.where(np.isin(np.arange(pieces), surface.piece), 0.0, np.inf))
         np.maximum.at(reached[-1], owner, deviations)
         beyond.append(np.bincount(owner[deviations > farthest], minlength=pieces))
+        sines.append(_sines(surface, pieces))
         rounds.append(meshed)
         if len(rounds) > REFINEMENTS:
             break
         far = (reached[-1] > farthest) & (np.bincount(owner, minlength=pieces) < most)
         if surface.field.fillet > 0.0 and len(rounds) > 1:
             # Where fillets' field bends faster than facets can, it is not for want of vertices.
-            idle = (beyond[-1] >= beyond[-2]) & (reached[-1] >= NEARER * reached[-2])
+            idle = (beyond[-1] >= beyond[-2].clip(1)) & (reached[-1] >= NEARER * reached[-2])
             reached[-1][idle] = np.inf
             far &= ~idle
         if len(rounds) > STALLED:
             far &= reached[-1] < NEARER * reached[-1 - STALLED]
-        meshed = meshed.where(far[surface.piece])
-        finer, parents = split_where_it_deviates(meshed.surface, deviations[far[owner]], farthest)
-        if finer is meshed.surface:
+        # What was divided last is sharp until the vertices about it have moved apart.
+        ease = (reached[-1] <= farthest) & (sines[-1] < SHARPEST) & (eased < EASED)
+        ease &= len(rounds) > 1
+        eased += ease
+        left = far | ease
+        meshed = meshed.where(left[surface.piece])
+        finer, parents = split_where_it_deviates(meshed.surface, deviations[left[owner]], farthest)
+        if finer is meshed.surface and not ease.any():
             break
         finer = fit_facets(flipped_nearer(finer, farthest), farthest, REFITS[1])
         meshed = meshed.of(finer, parents)
-    # The last round of each piece that is nearly as near as any, of those without needles, if these
-    # are not much farther than the others.
-    sharp = np.array([_sines(part.surface, pieces) for part in rounds]) < SHARPEST
-    value = np.array(reached)
-    blunt = np.where(sharp, np.inf, value)
-    value = np.where(blunt.min(axis=0) < FARTHER * value.min(axis=0).clip(farthest), blunt, value)
+    # The last round of each piece that is nearly as near as any.
+    weight = np.sqrt(SHARPEST / np.array(sines).clip(1e-9)).clip(1.0, FARTHER)
+    value = np.array(reached).clip(farthest) * weight
     enough = np.maximum(value.min(axis=0) / NEARER, farthest)
     chosen = len(rounds) - 1 - np.argmax((value <= enough)[::-1], axis=0)
     parts = [part.where((chosen == k)[part.surface.piece]) for k, part in enumerate(rounds)]

@@ -35,10 +35,17 @@ LOOK_AT = np.array(
 ) / 6.0  # fmt: skip
 #: Where those are that need a close look: between several struts some one point strays most.
 LOOK_CLOSELY = np.array([(i, j, 12 - i - j) for i in range(13) for j in range(13 - i)]) / 12.0
+#: And then about the place that strays most, in sixths of those steps.
+LOOK_AROUND = np.array(
+    [(i, j, -i - j) for i in range(-4, 5) for j in range(-4, 5) if abs(i + j) <= 4]
+) / 72.0  # fmt: skip
 #: Points that are looked at at a time: cells of many struts would take gigabytes.
 POINTS_AT_ONCE = 1 << 17
 #: And edges, in shares of their length.
 LOOK_ALONG = tuple(k / 12.0 for k in range(1, 12))
+#: An edge that strays is divided where it bows by so much of what it may stray; both ends of others
+#: are lifted, which facets beside it cause.
+BOWED = 0.5
 #: Edges shorter than this, in wanted edges, are not divided.
 SHORTEST = 0.05
 #: A crease nearer to an end of an edge than this, in shares of its length, does not divide it.
@@ -65,20 +72,26 @@ TIED = 1e-6
 def facet_deviations(surface: Surface, corners: Ints, looks: Floats = LOOK_AT) -> Floats:
     """(k,) how far facets of (k, 3) vertices stray from the exact surface, mm.
 
-    Looked at in the (q, 3) barycentric coordinates `looks`.
+    Looked at in the barycentric coordinates `looks`, (q, 3) or (k, q, 3).
     """
-    if not len(corners):
-        return np.zeros(0)
-    size = POINTS_AT_ONCE // len(looks)
-    parts = (corners[begin : begin + size] for begin in range(0, len(corners), size))
-    return np.concatenate([_facet_deviations(surface, part, looks) for part in parts])
+    return _farthest(surface, corners, looks)[0]
 
 
-def _facet_deviations(surface: Surface, corners: Ints, looks: Floats) -> Floats:
-    points = np.einsum("qi,mik->mqk", looks, surface.vertices[corners])
-    values = surface.field.rows(corners[:, 0]).values_of_groups(points)
-    result: Floats = np.abs(values).max(axis=1)
-    return result
+def _farthest(surface: Surface, corners: Ints, looks: Floats) -> tuple[Floats, Ints]:
+    """How far facets stray, as `facet_deviations`, and where: (k,) which of the `looks`."""
+    farthest, where = np.zeros(len(corners)), np.zeros(len(corners), np.int64)
+    size = POINTS_AT_ONCE // looks.shape[-2]
+    for begin in range(0, len(corners), size):
+        part = slice(begin, begin + size)
+        own = corners[part]
+        at = np.broadcast_to(
+            looks if looks.ndim == 2 else looks[part], (len(own), *looks.shape[-2:])
+        )
+        points = np.einsum("mqi,mik->mqk", at, surface.vertices[own])
+        values = np.abs(surface.field.rows(own[:, 0]).values_of_groups(points))
+        where[part] = values.argmax(axis=1)
+        farthest[part] = values.max(axis=1)
+    return farthest, where
 
 
 def surface_deviations(surface: Surface, closely: float = np.inf) -> Floats:
@@ -87,23 +100,38 @@ def surface_deviations(surface: Surface, closely: float = np.inf) -> Floats:
     Looked at closely between several struts, and where that is more than `closely`, mm.
     """
     result = facet_deviations(surface, surface.triangles)
+    # The fit lifts vertices off a ball by more than it leaves the facets between them below it.
+    at_vertices = np.abs(surface.field.values(surface.vertices))
+    result = np.maximum(result, at_vertices[surface.triangles].max(axis=1, initial=0.0))
     if surface.field.fillet > 0.0:  # without creases
         return result
     nearest = surface.field.nearest(surface.vertices)[1][surface.triangles]
     look = np.flatnonzero((nearest != nearest[:, :1]).any(axis=1) | (result > closely))
-    result[look] = facet_deviations(surface, surface.triangles[look], LOOK_CLOSELY)
+    result[look], where = _farthest(surface, surface.triangles[look], LOOK_CLOSELY)
+    # Over a crease it peaks between the places that were looked at.
+    peaked = result[look] > closely
+    look, where = look[peaked], where[peaked]
+    around = np.maximum(LOOK_CLOSELY[where][:, None] + LOOK_AROUND, 0.0)
+    around /= around.sum(axis=2, keepdims=True)
+    peaks = facet_deviations(surface, surface.triangles[look], around)
+    result[look] = np.maximum(result[look], peaks)
     return result
 
 
-def edge_deviations(surface: Surface, ends: Ints) -> Floats:
-    """(k,) how far edges of (k, 2) vertices stray from the exact surface, mm."""
+def edge_deviations(surface: Surface, ends: Ints) -> tuple[Floats, Floats]:
+    """(k,) how far edges of (k, 2) vertices stray from the exact surface, and bow to it, mm.
+
+    Those whose ends are equally far from it, and all between, do not bow.
+    """
     a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
     nearer = [surface.field.rows(end) for end in ends.T]
-    result: Floats = np.zeros(len(ends))
+    at_a, at_b = (field.values(end) for field, end in zip(nearer, (a, b), strict=True))
+    strays, bows = np.zeros((2, len(ends)))
     for share in LOOK_ALONG:
-        field = nearer[share > 0.5]
-        result = np.maximum(result, np.abs(field.values(a + share * (b - a))))
-    return result
+        value = nearer[share > 0.5].values(a + share * (b - a))
+        strays = np.maximum(strays, np.abs(value))
+        bows = np.maximum(bows, np.abs(value - at_a - share * (at_b - at_a)))
+    return strays, bows
 
 
 def coarser(surface: Surface, farthest: float) -> tuple[Surface, Ints]:
@@ -216,22 +244,24 @@ def split_where_it_deviates(
     if not len(inner):
         return surface, same
     ends = table.ends[inner]
-    bad = edge_deviations(surface, ends) > farthest
-    # A facet that strays though its edges do not is divided at its longest inner one.
+    strays, bow = edge_deviations(surface, ends)
+    bad = (strays > farthest) & (bow > BOWED * farthest)
+    # A facet that strays though none of its edges does is divided at the inner one that bows most:
+    # round a strut, not along it.
     a, b = surface.vertices[ends[:, 0]], surface.vertices[ends[:, 1]]
     length = np.linalg.norm(b - a, axis=1)
     touched = np.zeros(len(surface.triangles), bool)
     touched[table.triangles[inner[bad]]] = True
     far = np.flatnonzero(~touched & (deviations > farthest))
-    longest = np.full(len(touched), -1)
-    by_length = np.argsort(length, kind="stable")
+    most = np.full(len(touched), -1)
+    by_bow = np.argsort(bow, kind="stable")
     for side in (0, 1):
-        here = table.triangles[inner[by_length], side]
+        here = table.triangles[inner[by_bow], side]
         better = np.full(len(touched), -1)
-        better[here] = by_length  # the last one, and so the longest, stays
-        take = (better >= 0) & ((longest < 0) | (length[better] > length[longest]))
-        longest[take] = better[take]
-    chosen = longest[far]
+        better[here] = by_bow  # the last one, which bows most, stays
+        take = (better >= 0) & ((most < 0) | (bow[better] > bow[most]))
+        most[take] = better[take]
+    chosen = most[far]
     bad[chosen[chosen >= 0]] = True
     bad &= length > SHORTEST * surface.edge
     if not bad.any():
@@ -325,7 +355,7 @@ def finer_border(surface: Surface, farthest: float) -> tuple[Surface, Ints]:
     shared = (surface.place[ends[:, 0]] == surface.place[ends[:, 1]]) & surface.pinned[ends[:, 0]]
     length = np.linalg.norm(surface.vertices[ends[:, 1]] - surface.vertices[ends[:, 0]], axis=1)
     bad = (shared.sum(axis=1) == 1) & (length > SHORTEST * surface.edge)
-    bad &= edge_deviations(surface, ends) > farthest
+    bad &= edge_deviations(surface, ends)[0] > farthest
     if not bad.any():
         return surface, parents
     ends, owner, shared = ends[bad], owner[bad], shared[bad]

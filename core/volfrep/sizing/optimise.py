@@ -27,8 +27,10 @@ _POWERS["frame buckling"] = 4.0
 _POWERS["skin stress"] = 2.6
 #: Powers of a stress ratio, a buckling ratio and a criterion by which a radius is changed.
 _STRESSED, _BUCKLED, _CRITERION = 0.35, 0.22, 0.3
-#: Struts with this part of their largest radius cannot become thicker: the skin beside them does,
-#: by this power of their ratio.
+#: A strut's end asks those nodes for a larger radius that have more than this share in its own.
+_ASKED = 0.3
+#: Where all of these have this part of their largest radius, a strut cannot become thicker: the
+#: skin beside it does, by this power of its ratio.
 _FULL, _BESIDE = 0.999, 2.0
 #: Criteria over a middle one are not looked at beyond these.
 _MERITS = 1e-4, 1e4
@@ -337,11 +339,12 @@ def next_radii(problem: Problem, found: Analysis, changes: Changes, limits: Limi
     if limits.buckling is not None:
         used = (found.buckling.max(axis=1) * limits.buckling) ** _BUCKLED
         use = np.maximum(use, used[:, None])
+    entries = shape.ends.tocoo()
+    part = entries.data > _ASKED
+    ends, nodes = entries.row[part], entries.col[part]
     if use.any():
-        entries = shape.ends.tocoo()
-        part = entries.data > 0.3
         needed = np.zeros(len(radii))
-        np.maximum.at(needed, entries.col[part], use.ravel()[entries.row[part]])
+        np.maximum.at(needed, nodes, use.ravel()[ends])
         low = np.clip(radii * needed, low, high)
     if limits.skin_stress is not None and problem.skin is not None:
         assert found.skin_stress is not None
@@ -349,10 +352,11 @@ def next_radii(problem: Problem, found: Analysis, changes: Changes, limits: Limi
         needed = np.zeros(len(radii))
         needed[problem.skin.radii :] = problem.skin.largest_near(shells)
         # What a strut that is as thick as it may be cannot bear, the skin about it takes.
-        full = shape.of_struts(radii) >= _FULL * shape.of_struts(problem.high)
-        over = np.flatnonzero(full.all(axis=1) & (use.max(axis=1) > 1.0))
-        beams, nodes = problem.structure.beams, problem.structure.nodes
-        near = problem.skin.nearest(nodes[beams.struts[over]].mean(axis=1))
+        full = np.ones(use.size, bool)
+        full[ends[radii[nodes] < _FULL * problem.high[nodes]]] = False
+        over = np.flatnonzero(full.reshape(use.shape).all(axis=1) & (use.max(axis=1) > 1.0))
+        structure = problem.structure
+        near = problem.skin.nearest(structure.nodes[structure.beams.struts[over]].mean(axis=1))
         needed_near = np.repeat(use[over].max(axis=1) ** _BESIDE, near.shape[1])
         np.maximum.at(needed, problem.skin.radii + near.ravel(), needed_near)
         low = np.clip(radii * needed, low, high)

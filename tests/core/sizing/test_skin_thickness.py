@@ -19,7 +19,7 @@ from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.sizing.analysis import Limits, analyse
 from volfrep.sizing.model import with_sized_skin
-from volfrep.sizing.optimise import lightest, uniform
+from volfrep.sizing.optimise import lightest, next_radii, uniform
 from volfrep.sizing.skin import skin_model
 from volfrep.sizing.tapered_beams import Elastic
 from volfrep.util.cache import StageCache
@@ -108,6 +108,31 @@ def test_the_mass_asked_for_is_that_of_the_file():
     assert values[thin].mean() < 0.5 * values[~thin].mean()
     file = fill(solid, made.spec).mesh.volume * TITANIUM.density / 1e3
     assert file == pytest.approx(mass, rel=0.02)
+
+
+def test_the_skin_takes_what_a_strut_as_thick_as_it_may_be_cannot_bear():
+    """Though a thin node has a small share in the radius of its end, which the skin cuts."""
+    _, problem, radii = tube(
+        (33.0, 22.0, 22.0), lambda region: Force(region, (0, 0, -500.0)), bounds=(0.5, 4.0),
+        patch=10.0,
+    )  # fmt: skip
+    shares = problem.radii.ends.toarray().reshape(-1, 2, len(radii))
+    most = shares.max(axis=1)
+    strut = int(np.flatnonzero(((most > 0.0) & (most < 0.3)).any(axis=1))[0])
+    asked = np.flatnonzero(most[strut] > 0.5)
+    radii[asked] = problem.high[asked]
+    limits = Limits(stress=500.0, skin_stress=500.0)
+    found, changes = analyse(problem, radii, limits, with_changes=True)
+    stress = np.zeros_like(found.stress)
+    stress[strut] = 2.0 * limits.stress
+    found = replace(found, stress=stress, skin_stress=np.zeros_like(found.skin_stress))
+    after = next_radii(problem, found, changes, limits)
+    structure = problem.structure
+    middle = structure.nodes[structure.beams.struts[strut]].mean(axis=0)
+    near = problem.skin.radii + problem.skin.nearest(middle[None])[0]
+    assert (after[near] > radii[near]).all()
+    others = np.setdiff1d(np.arange(problem.skin.radii, len(radii)), near)
+    assert (after[others] < radii[others]).all()
 
 
 def test_a_skin_that_ended_even_is_compared_with_what_came_out():

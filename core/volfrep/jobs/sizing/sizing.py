@@ -423,7 +423,9 @@ def _notes_of(task: _Task, search: _Search) -> list[str]:
         notes += other_mass(
             sized.analysis.volume + model.skin_volume, task.skin.volume, task.loads.material
         )
-    notes += stressed_skin(model, sized.analysis, limits, task.skin is not None)
+    limit, is_sized = limits.stress, task.skin is not None
+    if limit is None or not is_sized or max(skin_peaks(model, sized.analysis)) > SKIN_HOLDS * limit:
+        notes += stressed_skin(model, sized.analysis, limits, is_sized)
     notes += free_motions(model.problem)
     notes += left_out(task.infill.spec) + small_dimples(model, limits)
     if sized.stopped == "cancelled":

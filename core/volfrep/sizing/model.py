@@ -286,7 +286,7 @@ def with_sized_skin(
     """
     problem, skin = model.problem, model.skin
     assert skin is not None
-    places = skin.middle[skin.shells.triangles].mean(axis=1)
+    places = skin.centres
     if np.isfinite(patch):
         points = control_points(places if mirrors is None else mirrors.folded(places), patch)
         if mirrors is not None:

@@ -30,6 +30,7 @@ from ..spatial.medial_balls import wall_thickness
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
 from ..util.linalg import cross_matrix
+from ..util.peaks import most_but_peaks
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .shell_elements import Shells, UnitBlocks, shells_of, worse_side
@@ -154,6 +155,15 @@ class SkinModel:
         stress = worse_side(fitted(shells.in_plane(moved)), fitted(shells.bent(moved)))
         return stress if self.stress_ratio is None else stress * self.stress_ratio[:, None]
 
+    def peaks(self, displacements: Floats) -> list[float]:
+        """MPa in each case, on all but a little of the area, of the nodes' (n, 6, k)."""
+        return [most_but_peaks(row, self.shells.area) for row in self.stresses(displacements).T]
+
+    @cached_property
+    def centres(self) -> Floats:
+        """(t, 3) mm, of the shells."""
+        return np.asarray(self.middle[self.shells.triangles].mean(axis=1))
+
     def pressed(self, displacements: Floats, shells: Shells | None = None) -> Floats:
         """(c, 6, 6) what the stress in the shells' plane adds to `blocks`, of the nodes' (n, 6)."""
         arms, nodes = _arms(self.outside.vertices, self.middle), self.shells.triangles
@@ -174,8 +184,8 @@ class SkinModel:
         turn = np.einsum("ij,ij->i", axes[row, 2], axes[column, 2])
         same = turn > np.cos(np.radians(SHARP))
         row, column = row[same], column[same]
-        middle = self.middle[triangles].mean(axis=1)
-        away = np.einsum("kij,kj->ki", axes[row, :2], middle[column] - middle[row])
+        between = self.centres[column] - self.centres[row]
+        away = np.einsum("kij,kj->ki", axes[row, :2], between)
         terms = np.column_stack([np.ones(len(row)), away])
         weight = area[column]
         normal = np.empty((count, 3, 3))

@@ -73,9 +73,8 @@ def skin_ratio(skin: SkinModel, own: Floats, found: Floats, apart: float) -> Ski
         found: (t, k) the solver's; nan where it has none.
         apart: how far apart ratios are chosen, mm.
     """
-    places = skin.middle[skin.shells.triangles].mean(axis=1)
-    points = control_points(places, apart)
-    shares = shares_of(points, places, apart)
+    points = control_points(skin.centres, apart)
+    shares = shares_of(points, skin.centres, apart)
     known = np.isfinite(found).all(axis=1)
     area = sparse.diags(skin.shells.area * known)
     theirs = shares.T @ (area @ np.where(known, found.max(axis=1, initial=0.0), 0.0) ** _POWER)

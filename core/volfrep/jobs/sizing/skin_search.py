@@ -29,7 +29,6 @@ from ...sizing.symmetry import Mirrors
 from ...spatial.proximity import closest_points
 from ...util.cache import StageCache
 from ...util.errors import VolfrepError
-from ...util.peaks import most_but_peaks
 from ...util.progress import Monitor
 from ...util.types import Floats
 from ..infill import Infill
@@ -177,8 +176,7 @@ def with_ratios(model: SizingModel, ratios: StressRatios | None) -> SizingModel:
     """A model whose skin and struts are so many times as stressed as they say; None for once."""
     if ratios is None or model.skin is None:
         return model
-    places = model.skin.middle[model.skin.shells.triangles].mean(axis=1)
-    skin = replace(model.skin, stress_ratio=ratios.skin.at(places))
+    skin = replace(model.skin, stress_ratio=ratios.skin.at(model.skin.centres))
     factor = ratios.of_struts(middles_of(model))
     return replace(model, skin=skin, problem=replace(model.problem, stress_factor=factor))
 
@@ -287,8 +285,7 @@ def _field(
     outside = model.outside.vertices[rows]
     wanted = np.full(len(rows), chosen[0])
     if len(chosen) > 1:
-        centres = model.middle[model.shells.triangles].mean(axis=1)
-        reach = _reach(skin.points, centres)
+        reach = _reach(skin.points, model.centres)
         wanted = shares_of(skin.points, outside, reach) @ chosen
     wanted = np.ceil(wanted / STEP - 1e-6) * STEP
     depth = np.minimum(wanted, 0.5 * model.thickness_below[rows])
@@ -319,10 +316,8 @@ def _even(problem: Problem, limits: Limits) -> dict[str, Any]:
 
 def skin_peaks(model: SizingModel, analysis: Analysis) -> list[float]:
     """The stress of the skin in each case, MPa, on all but a little of its area."""
-    skin = model.skin
-    assert skin is not None
-    stress = skin.stresses(analysis.displacements[model.frame_nodes :])
-    return [most_but_peaks(row, skin.shells.area) for row in stress.T]
+    assert model.skin is not None
+    return model.skin.peaks(analysis.displacements[model.frame_nodes :])
 
 
 def governing_thickness(design: SkinDesign, limits: Limits) -> Governing:

@@ -132,7 +132,7 @@ def solid_places(
     skin = model.skin
     assert skin is not None
     shells = skin.shells
-    was_filled = filled.depth(skin.middle[shells.triangles].mean(axis=1)) > 0.0
+    was_filled = filled.depth(skin.centres) > 0.0
     full = was_filled | (
         shells.thickness >= _MEETS * skin.thickness_below[shells.triangles].mean(axis=1)
     )

@@ -61,28 +61,28 @@ def homes() -> dict[str, str]:
     raise SystemExit("core/volfrep/__init__.py has no _HOMES")
 
 
-def gather() -> None:
+def gather(pages: Path = PAGES) -> None:
     """Copy the pages to one folder, with links that lead somewhere there."""
-    shutil.rmtree(PAGES, ignore_errors=True)
-    shutil.copytree(ROOT / "docs", PAGES, ignore=shutil.ignore_patterns("upstream", "gallery"))
-    (PAGES / "commands" / "README.md").rename(PAGES / "commands" / "index.md")
-    shutil.copytree(ROOT / ICONS, PAGES / "images" / "icons")
-    shutil.copy(ROOT / SPECIMENS, PAGES)
+    shutil.rmtree(pages, ignore_errors=True)
+    shutil.copytree(ROOT / "docs", pages, ignore=shutil.ignore_patterns("upstream", "gallery"))
+    (pages / "commands" / "README.md").rename(pages / "commands" / "index.md")
+    shutil.copytree(ROOT / ICONS, pages / "images" / "icons")
+    shutil.copy(ROOT / SPECIMENS, pages)
     for source, name in TOP.items():
         text = (ROOT / source).read_text("utf-8")
         text = re.sub(r"\]\(docs/decisions\)", "](decisions/01-octants.md)", text)
         text = text.replace("](docs/", "](").replace("](LICENSE)", "](license.md)")
         for other, new in TOP.items():
             text = text.replace(f"]({other})", f"]({new})")
-        (PAGES / name).write_text(text.replace("commands/README.md", "commands/index.md"), "utf-8")
+        (pages / name).write_text(text.replace("commands/README.md", "commands/index.md"), "utf-8")
     licence = (ROOT / "LICENSE").read_text("utf-8")
-    (PAGES / "license.md").write_text(f"# Licence\n\n```text\n{licence}\n```\n", "utf-8")
-    for page in PAGES.rglob("*.md"):
+    (pages / "license.md").write_text(f"# Licence\n\n```text\n{licence}\n```\n", "utf-8")
+    for page in pages.rglob("*.md"):
         text = page.read_text("utf-8")
-        up = "../" * (len(page.relative_to(PAGES).parts) - 1)
+        up = "../" * (len(page.relative_to(pages).parts) - 1)
         text = text.replace(f"{up}../{ICONS}/", f"{up}images/icons/")
         for source, name in TOP.items():
-            text = text.replace(f"]({up}../{source})", f"]({up}{name})")
+            text = re.sub(rf"\]\({up}\.\./{source}(?=[)#])", f"]({up}{name}", text)
         text = text.replace("commands/README.md", "commands/index.md")
         text = text.replace("](gallery)", "](gallery.md)")
         text = re.sub(
@@ -101,14 +101,14 @@ def gather() -> None:
         told = ast.get_docstring(ast.parse(text)) or ""
         code = text.partition('"""\n')[2].strip()
         shown += [f"## {title}", "", told, "", "```python", code, "```", ""]
-    (PAGES / "gallery.md").write_text("\n".join(shown), "utf-8")
+    (pages / "gallery.md").write_text("\n".join(shown), "utf-8")
     reference = ["# Python", "", "Every name that the package promises, `volfrep.NAME`.", ""]
     where = homes()
     for name in sorted(public_names(), key=str.lower):
         options = f"      heading: volfrep.{name}\n      toc_label: {name}\n      heading_level: 2"
         reference += [f"::: {where[name]}", "    options:", options, ""]
-    (PAGES / "site.css").write_text(STYLE, "utf-8")
-    (PAGES / "python.md").write_text("\n".join(reference), "utf-8")
+    (pages / "site.css").write_text(STYLE, "utf-8")
+    (pages / "python.md").write_text("\n".join(reference), "utf-8")
 
 
 if __name__ == "__main__":

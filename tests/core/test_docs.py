@@ -8,6 +8,7 @@ import ast
 import importlib.util
 import inspect
 import re
+import runpy
 import shlex
 from operator import attrgetter
 from pathlib import Path
@@ -138,6 +139,18 @@ def test_every_link_leads_to_a_file(page: Path) -> None:
     links = re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8"))
     local = [link for link in links if "://" not in link]
     assert [link for link in local if not (page.parent / link).exists()] == []
+
+
+def test_every_link_of_the_site_leads_to_a_page_of_it(tmp_path: Path) -> None:
+    site = runpy.run_path(str(ROOT / "tools" / "site.py"))
+    site["gather"](tmp_path / "pages")
+    dead = [
+        f"{page.name}: {link}"
+        for page in sorted((tmp_path / "pages").rglob("*.md"))
+        for link in re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8"))
+        if "://" not in link and not (page.parent / link).exists()
+    ]
+    assert dead == []
 
 
 def anchors(page: Path) -> set[str]:

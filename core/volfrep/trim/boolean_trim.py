@@ -116,8 +116,7 @@ def _join_groups(
     pieces: dict[int, Piece] = {}
     while True:
         missing = np.array([k for k in range(groups.count) if k not in pieces], np.int64)
-        given = groups.each(missing, cavity, monitor)
-        pieces.update(_cut(given, len(missing), executor, monitor))
+        pieces.update(_cut(groups, missing, cavity, executor, monitor))
         if ahead is not None and inner is not None:
             ahead(inner.sound)
             ahead = None
@@ -143,6 +142,21 @@ def _join_groups(
 
 
 def _cut(
+    groups: Groups, which: Ints, cavity: bool, executor: Executor | None, monitor: Monitor
+) -> dict[int, Piece]:
+    """What the Boolean leaves of some of the groups."""
+    found: dict[int, Piece] = {}
+    for closed in (False, True):  # few are not certain where the wall is open, mostly none
+        given = groups.each(which, cavity, monitor, closed=closed)
+        found.update(_cut_each(given, len(which), executor, monitor))
+        which = np.array([k for k in which if found[k].needs_solid], np.int64)
+        if not len(which):
+            break
+        monitor.count("groups cut again at a solid wall", len(which))
+    return found
+
+
+def _cut_each(
     groups: Iterator[tuple[int, Group]], count: int, executor: Executor | None, monitor: Monitor
 ) -> Iterator[tuple[int, Piece]]:
     """What the Boolean leaves of numbered groups, in their order."""
@@ -161,7 +175,7 @@ def _cut(
 def _cut_with(
     groups: Iterator[tuple[int, Group]], count: int, executor: Executor | None, monitor: Monitor
 ) -> Iterator[tuple[int, Piece]]:
-    """As `_cut`, with this executor; None: here."""
+    """As `_cut_each`, with this executor; None: here."""
     ahead: deque[tuple[int, Group, Future[Piece] | None]] = deque()
     watch = Watch(executor)
     for done in range(count):

@@ -49,11 +49,13 @@ class Group:
         own: (nx, ny, nz) bool, those whose surface the group gives out.
         adjacent: others that its part of the wall touches.
         follow: where the lattice goes on.
-        boundary: closed mesh, near the octants that of the domain, mm.
+        boundary: mesh of the domain's wall near the octants, mm.
         own_boundary: (m,) bool, triangles of it whose remains the group gives out.
         cavity: True for the wall less the lattice, turned inside out, False for what is in both.
         alone: whether there is no other group; otherwise no source triangle is joined with
             another in one plane, so that groups leave the same vertices where they meet.
+        closed: whether the boundary is a solid's. Otherwise it is what reaches into the box about
+            the octants, and where only a solid tells what is inside nothing is cut.
         precision: slivers thinner than that are taken out, mm; 0: they stay.
     """
 
@@ -65,6 +67,7 @@ class Group:
     own_boundary: Bools
     cavity: bool
     alone: bool
+    closed: bool
     precision: float = 0.0
 
 
@@ -79,6 +82,7 @@ class Piece:
         work: what was done, counted.
         defect: what is not a solid; empty otherwise.
         looks: what is known of its triangles; None: nothing.
+        needs_solid: nothing was cut, for the wall has to be a solid for that.
     """
 
     mesh: TriangleMesh
@@ -87,6 +91,7 @@ class Piece:
     work: dict[str, int] = field(default_factory=dict)
     defect: str = ""
     looks: Looks | None = None
+    needs_solid: bool = False
 
     @property
     def error(self) -> Exception:
@@ -116,6 +121,9 @@ def cut_group(group: Group, monitor: Monitor | None = None) -> Piece:
     try:
         piece = _cut_along_seam(group, surfaces, capped, asked, monitor)
     except NotCertain:
+        if not group.closed:
+            none = np.zeros(0, np.int64)
+            return Piece(empty_mesh(), none > 0, none, needs_solid=True)
         piece = _cut_by_library(group, surfaces, len(caps), capped(), asked, monitor)
     if piece.defect:
         return piece
@@ -201,7 +209,13 @@ def _cut_along_seam(
 
     parts = asked.call(
         lambda: cut_mutually(
-            lattice, group.boundary, wanted, within, in_front=group.cavity, monitor=monitor
+            lattice,
+            group.boundary,
+            wanted,
+            within,
+            in_front=group.cavity,
+            closed=group.closed,
+            monitor=monitor,
         )
     )
     boundary = parts.second[:, ::-1] if group.cavity else parts.second

@@ -52,21 +52,24 @@ def cut_mutually(
     within: Callable[[Floats], Bools],
     *,
     in_front: bool,
+    closed: bool = True,
     monitor: Monitor,
 ) -> MutualCut:
     """Cut two surfaces at each other.
 
     Args:
         first: any part of a closed surface.
-        second: closed, about all of the first one.
+        second: closed, about all of the first one; or all of that which reaches into its box.
         wanted: (m,) and (k,) bool, facets whose remains are asked for. For those of the second
             surface the first one has to be whole where they are.
         within: tells which of (k, 3) points lie behind the first surface, mm.
         in_front: of the second surface what lies in front of the first one stays, else behind it.
+        closed: whether the second surface is.
         monitor: for cancel.
 
     Raises:
-        NotCertain: they touch within rounding, or do not divide space where they meet.
+        NotCertain: they touch within rounding, or do not divide space where they meet, or do not
+            meet where the second one would have to be closed to tell what lies inside.
     """
     seam = seam_of(first, second)
     points = seam.points
@@ -87,6 +90,8 @@ def cut_mutually(
     )  # fmt: skip
 
     def behind(rows: Ints) -> Bools:
+        if not closed:
+            raise NotCertain
         return inside_points(second, vertices[rows], monitor)
 
     def wanted_side(rows: Ints) -> Bools:

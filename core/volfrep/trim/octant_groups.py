@@ -22,7 +22,7 @@ from ..lattice.assembly import Layout
 from ..mesh import remesh
 from ..mesh.booleans import from_library, to_library
 from ..mesh.topology import among_edges, edge_keys
-from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..mesh.triangle_mesh import TriangleMesh, compact, triangle_boxes
 from ..spatial.self_intersection import meeting_boxes
 from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
@@ -100,8 +100,16 @@ class Groups:
         mesh = compact(TriangleMesh(self.boundary.vertices, triangles))
         return Piece(mesh, np.ones(len(triangles), bool), rim_of(mesh))
 
-    def each(self, which: Ints, cavity: bool, monitor: Monitor) -> Iterator[tuple[int, Group]]:
+    def each(
+        self, which: Ints, cavity: bool, monitor: Monitor, *, closed: bool = False
+    ) -> Iterator[tuple[int, Group]]:
         """Some of the groups with their numbers, in any order, each made when its turn comes.
+
+        Args:
+            which: of the groups.
+            cavity: as of a `Group`.
+            monitor: for cancel.
+            closed: whether their walls are to be solids; that of the only group is one.
 
         Raises:
             VolfrepError: the wall is not a solid that can be cut.
@@ -116,7 +124,10 @@ class Groups:
             # All of a triangle of the wall goes in where an octant is cut by it: a part of it would
             # be divided otherwise.
             boxes = np.array([self._box(*each) for each in zip(which, octants, owned, strict=True)])
-            boundaries = _near(self.boundary, boxes, owned, monitor)
+            if closed:
+                boundaries = _solids_near(self.boundary, boxes, owned, monitor)
+            else:
+                boundaries = self._walls_near(which, boxes, monitor)
         going = self.lattice.kept.border | self.lattice.kept.inside
         for k, boundary, own_boundary in boundaries:
             group, rows = int(which[k]), octants[k]
@@ -135,9 +146,35 @@ class Groups:
                 own_boundary,
                 cavity,
                 alone,
+                closed or alone,
                 self.precision,
             )
             yield group, made
+
+    def _walls_near(
+        self, which: Ints, boxes: Floats, monitor: Monitor
+    ) -> Iterator[tuple[int, TriangleMesh, Bools]]:
+        """The triangles of the wall that reach into (k, 2, 3) boxes, and which are the groups'.
+
+        Each with its row, in any order.
+        """
+        corners = self.boundary.triangles.T
+        low, high = triangle_boxes(self.boundary.vertices.T, corners)
+        # Halves of what is left of the wall, so that each look is at a small part.
+        waiting = [(np.arange(corners.shape[1]), np.arange(len(boxes)))]
+        while waiting:
+            some, rows = waiting.pop()
+            least, most = boxes[rows, 0].min(axis=0), boxes[rows, 1].max(axis=0)
+            for axis in range(3):
+                meets = (low[axis][some] <= most[axis]) & (high[axis][some] >= least[axis])
+                some = some[meets]
+            if len(rows) > 1:
+                waiting += [(some, half) for half in _halves(boxes, rows)]
+                continue
+            used, local = np.unique(self.boundary.triangles[some], return_inverse=True)
+            near = TriangleMesh(self.boundary.vertices[used], local.reshape(-1, 3).astype(np.int32))
+            monitor.tick()
+            yield int(rows[0]), near, self.triangle[some] == which[rows[0]]
 
     def _octants(self, group: int) -> Ints:
         """The rows of a group's octants and of those that touch its part of the wall.
@@ -315,7 +352,15 @@ def _owners(touch: Ints, octant: Ints, count: int, triangles: int) -> Ints:
     return owner
 
 
-def _near(
+def _halves(boxes: Floats, rows: Ints) -> tuple[Ints, Ints]:
+    """Rows of (k, 2, 3) boxes in two halves, along the longest side."""
+    middle = boxes[rows].mean(axis=1)
+    order = np.argsort(middle[:, np.ptp(middle, axis=0).argmax()], kind="stable")
+    half = len(rows) // 2
+    return rows[order[half:]], rows[order[:half]]
+
+
+def _solids_near(
     boundary: TriangleMesh, boxes: Floats, owned: list[Ints], monitor: Monitor
 ) -> Iterator[tuple[int, TriangleMesh, Bools]]:
     """The solid within the wall, cut to (k, 2, 3) boxes, and which triangles are those owned.
@@ -343,10 +388,7 @@ def _near(
         block = library.Manifold.cube(tuple(high - low)).translate(tuple(low))
         solid = solid ^ block
         if len(rows) > 1:
-            middle = boxes[rows].mean(axis=1)
-            order = np.argsort(middle[:, np.ptp(middle, axis=0).argmax()], kind="stable")
-            half = len(rows) // 2
-            waiting += [(solid, rows[order[half:]]), (solid, rows[order[:half]])]
+            waiting += [(solid, half) for half in _halves(boxes, rows)]
             continue
         result = solid.to_mesh64()
         origin = np.repeat(

@@ -201,9 +201,9 @@ def joined_of(monkeypatch):
     counts = []
     each = octant_groups.Groups.each
 
-    def noted(self, which, cavity, monitor):
+    def noted(self, which, *given, **named):
         counts.append(len(which))
-        return each(self, which, cavity, monitor)
+        return each(self, which, *given, **named)
 
     monkeypatch.setattr(octant_groups.Groups, "each", noted)
     return counts

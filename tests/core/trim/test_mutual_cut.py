@@ -110,6 +110,39 @@ def test_only_wanted_facets_are_given_out_and_they_are_the_same():
     assert not areas(part)[~half].any()
 
 
+@pytest.mark.parametrize("in_front", [True, False])
+def test_what_of_a_wall_reaches_into_the_box_about_a_surface_does_where_they_meet(in_front):
+    lattice, wall = PAIRS["large facets, small ones"]
+    whole = cut(lattice, wall, in_front)[1]
+    corners = wall.vertices[wall.triangles]
+    low, high = lattice.bounds
+    near = (corners.min(axis=1) <= high).all(axis=1) & (corners.max(axis=1) >= low).all(axis=1)
+    assert 0.1 < near.mean() < 0.6
+    part = cut_mutually(
+        lattice, TriangleMesh(wall.vertices, wall.triangles[near]),
+        (np.ones(len(lattice.triangles), bool), np.ones(int(near.sum()), bool)),
+        lambda points: inside_points(lattice, points, Monitor()),
+        in_front=in_front, closed=False, monitor=Monitor(),
+    )  # fmt: skip
+    np.testing.assert_array_equal(part.first_source, whole.first_source)
+    np.testing.assert_allclose(
+        part.vertices[part.first], whole.vertices[whole.first], rtol=0, atol=1e-12
+    )
+    source = np.flatnonzero(near)[part.second_source]
+    stay = near[whole.second_source]
+    np.testing.assert_array_equal(np.sort(source), np.sort(whole.second_source[stay]))
+
+
+def test_an_open_wall_does_not_tell_what_lies_inside():
+    lattice, wall = PAIRS["one in the other"]
+    every = np.ones(len(lattice.triangles), bool), np.ones(len(wall.triangles), bool)
+    with pytest.raises(NotCertain):
+        cut_mutually(
+            lattice, wall, every, lambda points: np.zeros(len(points), bool),
+            in_front=True, closed=False, monitor=Monitor(),
+        )  # fmt: skip
+
+
 def test_points_of_the_seam_lie_on_both():
     lattice, wall = PAIRS["large facets, small ones"]
     seam = seam_of(lattice, wall)

@@ -12,13 +12,16 @@ import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from enum import Enum
+from functools import reduce
 
 import numpy as np
 
 from ..design.cells import UnitCell
 from ..design.spec_parts import Resolution, Struts
 from ..mesh import remesh
+from ..mesh.topology import touching, vertices_of
 from ..util.errors import VolfrepError
+from ..util.linalg import lengths
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
 from . import sdf
@@ -38,9 +41,10 @@ from .refinement import (
     flipped_nearer,
     split_where_it_deviates,
     surface_deviations,
+    with_vertices,
 )
 from .sdf import Primitives
-from .surface_fit import fit_border, fit_facets
+from .surface_fit import fit_border, fit_facets, missed_volume
 from .untangle import crossing_facets, untangle
 from .windows import sampled_finely_enough
 
@@ -52,6 +56,13 @@ MERGED_TO = 1.15
 DIVIDED_TO = 1.45
 #: Facets that stray by more than this part of it are looked at closely.
 LOOKED_AT = 0.8
+#: About facets that are divided, and those with sharper angles than `SHARPEST`, so many rings of
+#: facets are fitted; what lies farther is as it was.
+RINGS = 3
+#: A piece of fewer facets is fitted whole: where all is near all else, that brings it nearer.
+SMALL = 400
+#: A place (see `PinnedMesh`) that no face has: of vertices that stay.
+STAYS = np.int8(3)
 #: So often, at most, facets are divided.
 REFINEMENTS = 16
 #: Steps of the fit after vertices are merged, and after facets are divided.
@@ -223,15 +234,17 @@ def _refined(meshed: Meshed, deviation: float, monitor: Monitor) -> Meshed:
     pieces = int(meshed.surface.piece[-1]) + 1 if len(meshed.surface.piece) else 0
     count = np.bincount(meshed.surface.piece[meshed.surface.triangles[:, 0]], None, pieces)
     most, eased = ROOM + GROWTH * count, np.zeros(pieces, np.int64)
+    deviations = surface_deviations(meshed.surface, LOOKED_AT * farthest)
+    missed = missed_volume(meshed.surface, pieces)
     while True:
         monitor.tick()
         surface = meshed.surface
-        owner = surface.piece[surface.triangles[:, 0]]
-        deviations = surface_deviations(surface, LOOKED_AT * farthest)
+        owner, sine = surface.piece[surface.triangles[:, 0]], _sines(surface)
         reached.append(np.where(np.isin(np.arange(pieces), surface.piece), 0.0, np.inf))
         np.maximum.at(reached[-1], owner, deviations)
         beyond.append(np.bincount(owner[deviations > farthest], minlength=pieces))
-        sines.append(_sines(surface, pieces))
+        sines.append(np.ones(pieces))
+        np.minimum.at(sines[-1], owner, sine)
         rounds.append(meshed)
         if len(rounds) > REFINEMENTS:
             break
@@ -249,32 +262,81 @@ def _refined(meshed: Meshed, deviation: float, monitor: Monitor) -> Meshed:
         eased += ease
         left = far | ease
         meshed = meshed.where(left[surface.piece])
-        finer, parents = split_where_it_deviates(meshed.surface, deviations[left[owner]], farthest)
-        if finer is meshed.surface and not ease.any():
+        divided = _divided(meshed, deviations[left[owner]], sine[left[owner]], farthest, missed)
+        if divided is None:
             break
-        finer = fit_facets(flipped_nearer(finer, farthest), farthest, REFITS[1])
-        meshed = meshed.of(finer, parents)
+        meshed, deviations, missed = divided
     # The last round of each piece that is nearly as near as any.
     weight = np.sqrt(SHARPEST / np.array(sines).clip(1e-9)).clip(1.0, FARTHER)
     value = np.array(reached).clip(farthest) * weight
     enough = np.maximum(value.min(axis=0) / NEARER, farthest)
     chosen = len(rounds) - 1 - np.argmax((value <= enough)[::-1], axis=0)
     parts = [part.where((chosen == k)[part.surface.piece]) for k, part in enumerate(rounds)]
-    result = parts[0]
-    for part in parts[1:]:
-        result = result.joined(part)
-    return result
+    return reduce(Meshed.joined, parts)
 
 
-def _sines(surface: Surface, pieces: int) -> Floats:
-    """(pieces,) the sine of the smallest angle of the facets of each piece."""
+def _divided(
+    meshed: Meshed, deviations: Floats, sines: Floats, farthest: float, missed: Floats
+) -> tuple[Meshed, Floats, Floats] | None:
+    """With more vertices where facets stray, and what is about these and sharp ones fitted.
+
+    Args:
+        meshed: fitted.
+        deviations: (m,) how far its facets stray, mm.
+        sines: (m,) of their smallest angles.
+        farthest: facets may stray so far, mm.
+        missed: (pieces,) the volume that they miss, mm3.
+
+    Returns:
+        The mesh, how far its facets stray and what they miss; None where nothing is to be done.
+    """
+    surface = meshed.surface
+    triangles, count = surface.triangles, len(surface.vertices)
+    sharp = sines < SHARPEST
+    near = (deviations > farthest) | sharp
+    for _ in range(RINGS):
+        near = touching(vertices_of(triangles[near], count), triangles)
+    owner = surface.piece[triangles[:, 0]]
+    near |= (np.bincount(owner) < SMALL)[owner]
+    within = vertices_of(triangles[near], count)
+    index = np.flatnonzero(within)
+    # What the rest has, too, stays, and no edge of the rest is made once more.
+    beside = vertices_of(triangles[~near], count)[index]
+    place = np.where(beside[:, None] & (surface.place[index] == 1), STAYS, surface.place[index])
+    window = replace(
+        surface, vertices=surface.vertices[index],
+        triangles=(np.cumsum(within) - 1)[triangles[near]], place=place,
+        held=surface.held[index], field=surface.field.rows(index), piece=surface.piece[index],
+    )  # fmt: skip
+    finer, parents = split_where_it_deviates(window, deviations[near], farthest)
+    if finer is window and not sharp.any():
+        return None
+    rest = missed - missed_volume(window, len(missed))
+    wanted = -rest[: window.piece.max() + 1]
+    finer = fit_facets(flipped_nearer(finer, farthest), farthest, REFITS[1], wanted)
+    found = surface_deviations(finer, LOOKED_AT * farthest)
+    # The window put back.
+    fresh = np.flatnonzero(parents[:, 0] != parents[:, 1])
+    number = index[parents[:, 0]]
+    number[fresh] = count + np.arange(len(fresh))
+    vertices = surface.vertices.copy()
+    old = number < count
+    vertices[number[old]] = finer.vertices[old]
+    whole, parents = with_vertices(
+        replace(surface, vertices=vertices),
+        np.concatenate([triangles[~near], number[finer.triangles]]),
+        index[parents[fresh]], finer.vertices[fresh], finer.place[fresh],
+    )  # fmt: skip
+    missed = rest + missed_volume(finer, len(missed))
+    return meshed.of(whole, parents), np.concatenate([deviations[~near], found]), missed
+
+
+def _sines(surface: Surface) -> Floats:
+    """(m,) the sines of the smallest angles of the facets."""
     corners = surface.vertices[surface.triangles]
-    sides = np.sort(np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2), axis=1)
-    twice = np.linalg.norm(remesh.normals(corners), axis=1)
-    result = np.ones(pieces)
-    sine = twice / np.maximum(sides[:, 1] * sides[:, 2], 1e-300)
-    np.minimum.at(result, surface.piece[surface.triangles[:, 0]], sine)
-    return result
+    sides = np.sort(np.stack(remesh.side_lengths(corners), axis=1), axis=1)
+    sine: Floats = lengths(remesh.normals(corners)) / np.maximum(sides[:, 1] * sides[:, 2], 1e-300)
+    return sine
 
 
 def _alike(

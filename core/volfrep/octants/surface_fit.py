@@ -55,7 +55,10 @@ def fit_border(remeshed: Surface) -> Surface:
 
 
 def fit_facets(
-    surface: Surface, farthest: float | None = None, passes: int = FIT_PASSES
+    surface: Surface,
+    farthest: float | None = None,
+    passes: int = FIT_PASSES,
+    missed: Floats | float = 0.0,
 ) -> Surface:
     """The facets fitted to the exact surface, those on the border as they are, volume put right.
 
@@ -64,13 +67,15 @@ def fit_facets(
         farthest: how far facets should stray at most, mm: those that stray farther weigh more.
             None for least squares.
         passes: steps of the fit.
+        missed: what the facets are left to miss of the volume, (pieces,) mm3: of a part of a
+            piece that what the rest misses.
     """
     if not len(surface.triangles):
         return surface
     for _ in range(passes):
         surface = _fit(surface, farthest)
     for _ in range(2):
-        surface = _balance(surface)
+        surface = _balance(surface, missed)
     return surface
 
 
@@ -196,15 +201,28 @@ def _sampled(surface: Surface) -> tuple[Floats, Floats, Floats]:
     return area, value.reshape(len(area), -1), gradient.reshape(len(area), -1, 3)
 
 
-def _balance(surface: Surface) -> Surface:
+def missed_volume(surface: Surface, pieces: int) -> Floats:
+    """(pieces,) the volume that the facets miss: the integral of the distance over them, mm3."""
+    if not len(surface.triangles):
+        return np.zeros(pieces)
+    area, value, _ = _sampled(surface)
+    return _missed(surface, area, value, pieces)
+
+
+def _missed(surface: Surface, area: Floats, value: Floats, pieces: int) -> Floats:
+    missed = area * along(value, QUADRATURE_WEIGHTS)
+    return np.asarray(np.bincount(surface.piece[surface.triangles[:, 0]], missed, pieces))
+
+
+def _balance(surface: Surface, wanted: Floats | float) -> Surface:
     """The volume of every piece put right.
 
-    Its inner vertices move along the surface's normal, all by the same amount, so that the volume
-    that the facets miss (the integral of the distance over them) is zero.
+    Its inner vertices move along the surface's normal, all by the same amount, so that the facets
+    miss what is wanted of the volume.
     """
     triangles, count, piece = surface.triangles, len(surface.vertices), surface.piece
     area, value, gradient = _sampled(surface)
-    missed = np.bincount(piece[triangles[:, 0]], area * along(value, QUADRATURE_WEIGHTS))
+    missed = _missed(surface, area, value, piece.max() + 1) - wanted
     free = ~surface.pinned.any(axis=1)
     swept = np.bincount(piece[triangles[:, 0]], area * free[triangles].sum(axis=1) / 3.0)
     amount = np.zeros(piece.max() + 1)

@@ -104,3 +104,10 @@ def test_octants_whose_facets_cross_are_evened_out_once(monkeypatch):
     with pytest.raises(octant_mesh.FacetsCross):
         mesh_octants(LIBRARY["BCC"], spec, [key], Monitor())
     assert evened == [False, False, True]
+
+
+def test_an_octant_that_lost_all_its_struts_has_no_facets():
+    key = OctantKey(0, 1, missing=(1 << len(LIBRARY["Box"].struts)) - 1)
+    octant = mesh_octants(LIBRARY["Box"], OctantSpec(10.0, 1.0, 0.0, 8), [key], Monitor())[key]
+    assert len(octant.triangles) == len(octant.vertices) == 0
+    assert not octant.solid_corners.any()

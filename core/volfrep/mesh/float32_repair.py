@@ -7,6 +7,7 @@ And slivers as thin: three corners almost on a line may lie on it after rounding
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ from ..util.types import Bools, Ints
 from . import remesh
 from .precision import merging_vertices
 from .topology import edge_keys, open_vertices, touching, vertices_of
-from .triangle_mesh import TriangleMesh, compact
+from .triangle_mesh import TriangleMesh, compact, compacted
 
 #: Edges shorter than this many steps of float32 at the mesh's farthest coordinate are removed.
 STEPS = 16
@@ -47,22 +48,38 @@ def remove_slivers(mesh: TriangleMesh, tolerance: float) -> TriangleMesh:
         mesh: closed.
         tolerance: mm.
     """
-    return without_slivers(mesh, tolerance)[0]
+    return without_slivers(mesh, tolerance).mesh
+
+
+class WithoutSlivers(NamedTuple):
+    """A mesh after slivers went.
+
+    Attributes:
+        mesh: without vertices out of use.
+        new: (m,) bool, which of its triangles were not there, or elsewhere.
+        was: (m,) which one each was, -1 for these.
+        number: (n,) of each vertex that there was, if it is in use; None: as it was.
+    """
+
+    mesh: TriangleMesh
+    new: Bools
+    was: Ints
+    number: NDArray[np.int32] | None
 
 
 def without_slivers(
     mesh: TriangleMesh, tolerance: float, among: Ints | None = None
-) -> tuple[TriangleMesh, Bools, Ints]:
-    """As `remove_slivers`, with (m,) which triangles were not there, or elsewhere.
-
-    And (m,) which one each triangle was, -1 for these. With `among` only these are looked at.
-    """
+) -> WithoutSlivers:
+    """As `remove_slivers`; with `among` only these triangles are looked at."""
     if among is None:
         thin = slivers(mesh, tolerance)
     else:
         thin = among[_slivers(mesh.vertices, mesh.triangles[among], tolerance)]
     result, new, was = _rebuilt(mesh, thin, tolerance)
-    return mesh if result is mesh else compact(result, owned=True), new, was
+    if result is mesh:
+        return WithoutSlivers(mesh, new, was, None)
+    result, number = compacted(result, owned=True)
+    return WithoutSlivers(result, new, was, number)
 
 
 def without_slivers_at(
@@ -201,7 +218,10 @@ def _without(
     points[stay] = moved
     untouched = np.ones(len(triangles), bool)
     untouched[part] = False
-    joined = np.concatenate([triangles[untouched], stay[piece].astype(np.int32)])
+    stayed = np.flatnonzero(untouched)
+    joined = np.empty((len(stayed) + len(piece), 3), np.int32)
+    np.take(triangles, stayed, axis=0, out=joined[: len(stayed)], mode="clip")
+    joined[len(stayed) :] = stay[piece]
     return points, joined, part
 
 

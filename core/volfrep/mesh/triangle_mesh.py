@@ -5,10 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+
+Number = TypeVar("Number", np.float64, np.int32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,12 +131,21 @@ def compact(mesh: TriangleMesh, *, owned: bool = False) -> TriangleMesh:
         mesh: any.
         owned: nobody else has its triangles: they are numbered anew where they are.
     """
+    return compacted(mesh, owned=owned)[0]
+
+
+def compacted(mesh: TriangleMesh, *, owned: bool = False) -> tuple[TriangleMesh, NDArray[np.int32]]:
+    """As `compact`, and (n,) the new number of each vertex in use."""
     used = np.zeros(len(mesh.vertices), bool)
     used[mesh.triangles.ravel()] = True
-    index = np.cumsum(used, dtype=np.int32) - 1
-    triangles = mesh.triangles
-    if owned:
-        np.take(index, triangles, out=triangles, mode="clip")
-    else:
-        triangles = index[triangles]
-    return TriangleMesh(mesh.vertices[used], triangles)
+    index = np.cumsum(used, dtype=np.int32)
+    index -= 1
+    triangles = mesh.triangles if owned else np.empty(mesh.triangles.shape, np.int32)
+    np.take(index, mesh.triangles, out=triangles, mode="clip")
+    return TriangleMesh(rows_where(used, mesh.vertices), triangles), index
+
+
+def rows_where(kept: NDArray[np.bool_], rows: NDArray[Number]) -> NDArray[Number]:
+    """Some of (n, k) rows: as by a mask, which numpy applies number by number."""
+    result: NDArray[Number] = np.take(rows, np.flatnonzero(kept), axis=0, mode="clip")
+    return result

@@ -14,12 +14,11 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh.booleans import to_library
 from ..mesh.float32_repair import shortest_edge
-from ..mesh.topology import corners_among, pieces_of
-from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate
+from ..mesh.topology import corners_among, pieces_of, vertices_of
+from ..mesh.triangle_mesh import TriangleMesh, compact, rows_where
 from ..process.cluster import Watch
 from ..process.pool import at_once
 from ..spatial.rays import inside_points
@@ -90,7 +89,7 @@ def trim(
     inner = InnerOctants(lattice, kept.inside) if kept.inside.any() else None
     groups = group_octants(lattice, domain, monitor, precision)
     found = _join_groups(groups, inner, cavity, monitor, executor, ahead)
-    trimmed = TrimmedSurface(found.mesh, inner, found.looks)
+    trimmed = TrimmedSurface(found.mesh, inner, found.looks, found.at_rim)
     if not trimmed.is_joined:
         # The Boolean has taken out vertices at the caps, as it may do between tiny triangles: let
         # all the octants go through it, which takes longer.
@@ -125,8 +124,7 @@ def _join_groups(
             piece = pieces[0]
             if len(wrong):
                 raise piece.error
-            # Vertices of the slivers that went are out of use.
-            return Joined(compact(piece.mesh), piece.on_boundary, wrong)
+            return Joined(piece.mesh, piece.on_boundary, wrong)
         if not len(wrong):
             together = [pieces[k] for k in range(groups.count)]
             if cavity:
@@ -307,12 +305,14 @@ class Joined:
         on_boundary: (m,) bool, triangles that lie on the wall.
         loose: pieces that are open where no other one nor the rim follows.
         looks: what is known of its triangles; None: nothing.
+        at_rim: (k,) its vertices at the rim, -1 for none; None: not known.
     """
 
     mesh: TriangleMesh
     on_boundary: Bools
     loose: Ints
     looks: Looks | None = None
+    at_rim: Ints | None = None
 
 
 def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
@@ -326,7 +326,6 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
         rim: (k, 3) vertices at which the whole may be open, mm.
         tolerance: mm.
     """
-    whole = concatenate(*(piece.mesh for piece in pieces))
     on_boundary = np.concatenate([piece.on_boundary for piece in pieces])
     first = np.cumsum([0] + [len(piece.mesh.vertices) for piece in pieces])
     begin = np.cumsum([0] + [len(piece.mesh.triangles) for piece in pieces])
@@ -334,23 +333,35 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     owner = np.searchsorted(first, seam, "right") - 1
     from scipy.spatial import cKDTree  # slow to import
 
-    points = whole.vertices[seam]
+    points = np.concatenate([piece.mesh.vertices[piece.rim] for piece in pieces])
     pairs = cKDTree(points).query_pairs(tolerance, output_type="ndarray").astype(np.int64)
     count, cluster = pieces_of(pairs[:, 0], pairs[:, 1], len(seam))
     # Of one piece no two vertices may become one.
     loose = [_twice(cluster, owner)]
     chosen = np.full(count, len(seam))
     np.minimum.at(chosen, cluster, np.arange(len(seam)))
-    number = np.arange(len(whole.vertices), dtype=np.int32)
-    number[seam] = seam[chosen[cluster]]
-    triangles = whole.triangles
-    np.take(number, triangles, out=triangles, mode="clip")
-    at_rim = np.zeros(len(whole.vertices), bool)
+    stays = np.ones(first[-1], bool)
+    stays[seam] = False
+    stays[seam[chosen]] = True
+    number = np.cumsum(stays, dtype=np.int32)
+    number -= 1
+    number[seam] = number[seam[chosen[cluster]]]
+    mesh = TriangleMesh(np.empty((int(stays.sum()), 3)), np.empty((begin[-1], 3), np.int32))
+    at_seam, some, filled = np.zeros(len(stays), bool), [np.zeros(0, np.int64)], 0
+    at_seam[seam] = True
+    for k, piece in enumerate(pieces):
+        own, rows = slice(first[k], first[k + 1]), slice(begin[k], begin[k + 1])
+        corners = piece.mesh.triangles
+        np.take(number[own], corners, out=mesh.triangles[rows], mode="clip")
+        some.append(np.flatnonzero(corners_among(at_seam[own], corners) >= 2) + begin[k])
+        kept = rows_where(stays[own], piece.mesh.vertices)
+        mesh.vertices[filled : filled + len(kept)] = kept
+        filled += len(kept)
     row = equal_rows(rim, points[chosen])
-    at_rim[seam[chosen[row[row >= 0]]]] = True
-    loose.append(np.searchsorted(begin, _open(triangles, number, seam, at_rim), "right") - 1)
-    mesh = compact(whole, owned=True)
-    return Joined(mesh, on_boundary, np.unique(np.concatenate(loose)), _known_looks(pieces))
+    at_rim = np.where(row < 0, -1, number[seam[chosen[row]]]).astype(np.int64)
+    open_ = _open(mesh, np.concatenate(some), number[seam[chosen]], at_rim[row >= 0])
+    loose.append(np.searchsorted(begin, open_, "right") - 1)
+    return Joined(mesh, on_boundary, np.unique(np.concatenate(loose)), _known_looks(pieces), at_rim)
 
 
 def _known_looks(pieces: Sequence[Piece]) -> Looks | None:
@@ -372,19 +383,23 @@ def _twice(cluster: Ints, owner: Ints) -> Ints:
     return result
 
 
-def _open(
-    triangles: NDArray[np.int32], number: NDArray[np.int32], seam: Ints, at_rim: Bools
-) -> Ints:
-    """The triangles with an edge that does not run once each way and is not at the rim."""
-    at_seam = np.zeros(len(number), bool)
-    at_seam[number[seam]] = True
-    some = np.flatnonzero(corners_among(at_seam, triangles) >= 2)
-    start = triangles[some].astype(np.int64)
+def _open(mesh: TriangleMesh, some: Ints, seam: Ints, rim: Ints) -> Ints:
+    """The triangles with an edge that does not run once each way and is not at the rim.
+
+    Args:
+        mesh: of all of them.
+        some: triangles with an edge between vertices at seams, among others.
+        seam: vertices at seams.
+        rim: vertices at which the mesh may be open.
+    """
+    at_seam = vertices_of(seam, len(mesh.vertices))
+    at_rim = vertices_of(rim, len(mesh.vertices))
+    start = mesh.triangles[some].astype(np.int64)
     end = np.roll(start, -1, axis=1)
     here = at_seam[start] & at_seam[end]
     owner = np.repeat(some, 3).reshape(-1, 3)[here]
     start, end = start[here], end[here]
-    size = np.int64(len(number))
+    size = np.int64(len(mesh.vertices))
     key = start * size + end
     key.sort()
     back = end * size + start

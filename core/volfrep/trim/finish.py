@@ -57,15 +57,16 @@ def tidy(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimmed
     """
     looks = surface.looks
     unsound = looks.unsound if looks and looks.step * STEPS == precision else None
-    smooth, new, was = without_slivers(surface.mesh, precision, unsound)
+    smooth, new, was, number = without_slivers(surface.mesh, precision, unsound)
+    renumber = None if number is None else number.take
     release_memory()
     if not new.any():
-        return surface.on(smooth, surface.looks and surface.looks.of(was))
+        return surface.on(smooth, surface.looks and surface.looks.of(was), renumber)
     # What lies about the new triangles is little, and is all that is looked at.
     rows = np.flatnonzero(new | about(smooth, new))
     fresh = vertices_of(smooth.triangles[new], len(smooth.vertices))
     beside = rows[touching(fresh, smooth.triangles[rows])]
-    result = surface.on(smooth, surface.looks and surface.looks.rebuilt(was, beside))
+    result = surface.on(smooth, surface.looks and surface.looks.rebuilt(was, beside), renumber)
     part, among = TriangleMesh(smooth.vertices, smooth.triangles[rows]), new[rows]
     if surface.octants is not None:
         near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])
@@ -232,10 +233,11 @@ def _with_reached(
     """
     if surface.octants is None:
         return changed
-    if not changed.is_joined:
+    moved = displaced_vertices(surface.mesh, changed.mesh)
+    if moved[surface.rim_rows].any():
         return TrimmedSurface(surface.whole(monitor))
     vertices, triangles = changed.mesh.vertices, changed.mesh.triangles
-    went = touching(displaced_vertices(surface.mesh, changed.mesh), triangles)
+    went = touching(moved, triangles)
     reached = surface.octants.reached(vertices[triangles[went]])
     return surface.with_octants(reached, monitor) if reached.any() else changed
 

@@ -22,7 +22,7 @@ from ..lattice.placed_octants import Placed
 from ..mesh.booleans import from_library, to_library
 from ..mesh.float32_repair import STEPS, slivers, without_inner_slivers
 from ..mesh.topology import open_vertices, touching, vertices_of
-from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh
+from ..mesh.triangle_mesh import TriangleMesh, compact, compacted, empty_mesh
 from ..spatial.rays import inside_points
 from ..spatial.resolve_crossings import SOUND, Looks, look_at
 from ..spatial.self_intersection import crossing_triangles, meeting_boxes
@@ -76,7 +76,7 @@ class Piece:
     """What the Boolean left of a group.
 
     Attributes:
-        mesh: open where other groups or octants inside follow.
+        mesh: open where other groups or octants inside follow; all of its vertices are in use.
         on_boundary: (m,) bool, its triangles that lie on the wall.
         rim: vertices at open edges.
         work: what was done, counted.
@@ -182,7 +182,8 @@ def _tidy(piece: Piece, precision: float, monitor: Monitor) -> Piece:
     stayed = piece.on_boundary[was] & ~new
     at_boundary[smooth.triangles[stayed]] = True
     on_boundary = np.where(new, at_boundary[smooth.triangles].all(axis=1), stayed)
-    return Piece(smooth, on_boundary, piece.rim, piece.work)
+    smooth, number = compacted(smooth)
+    return Piece(smooth, on_boundary, number[piece.rim].astype(np.int64), piece.work)
 
 
 def _cut_along_seam(

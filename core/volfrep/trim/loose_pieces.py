@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.quality import Quality, measure, subtract_shells
-from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..mesh.triangle_mesh import TriangleMesh, compact, compacted, rows_where
 from ..octants.octant_spec import OctantSpec
 from ..spatial.rays import inside_points
 from ..util.progress import Monitor
@@ -92,8 +92,9 @@ def clear(
         inside_loose = void & _find_enclosed(mesh, label, loose & ~tiny, void & ~tiny)
     gone = loose | tiny | inside_loose
     goes = gone[label]
-    rest = compact(TriangleMesh(mesh.vertices, mesh.triangles[~goes]), owned=True)
-    left = surface.on(rest, surface.looks and surface.looks.of(~goes))
+    stay = TriangleMesh(mesh.vertices, rows_where(~goes, mesh.triangles))
+    rest, number = compacted(stay, owned=True)
+    left = surface.on(rest, surface.looks and surface.looks.of(~goes), number.take)
     if found.quality.watertight and left.triangles:
         taken = measure(compact(TriangleMesh(mesh.vertices, mesh.triangles[goes])))
         quality = subtract_shells(found.quality, taken, left.bounds, volume[used & ~gone])

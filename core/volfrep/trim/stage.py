@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from concurrent.futures import Executor
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -197,7 +198,7 @@ def cleared_cut(
     cut = cleared.surface
     outside = len(solid.triangles)
     looks = cut.looks and cut.looks.padded(outside, 0)
-    both = cut.on(concatenate(solid, cut.mesh), looks)
+    both = cut.on(concatenate(solid, cut.mesh), looks, partial(np.add, len(solid.vertices)))
     skin = inspect(solid, monitor)
     return replace(
         cleared,

@@ -7,9 +7,10 @@ joined to the mesh where both are open, by the vertices that they share.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,15 +50,33 @@ class TrimmedSurface:
         mesh: what was cut; open where octants inside follow.
         octants: those that belong to the surface beside the mesh; None for none.
         looks: what is known of the mesh's triangles; None: nothing.
+        rim_guess: (k,) the mesh's vertices that are probably those at the octants' rim.
     """
 
     mesh: TriangleMesh
     octants: InnerOctants | None = None
     looks: Looks | None = None
+    rim_guess: Ints | None = None
 
-    def on(self, mesh: TriangleMesh, looks: Looks | None = None) -> TrimmedSurface:
-        """The surface with another mesh, and what is known of that."""
-        return TrimmedSurface(mesh, self.octants, looks)
+    def on(
+        self,
+        mesh: TriangleMesh,
+        looks: Looks | None = None,
+        number: Callable[[Ints], NDArray[np.integer[Any]]] | None = None,
+    ) -> TrimmedSurface:
+        """The surface with another mesh, and what is known of that.
+
+        Args:
+            mesh: in place of its own.
+            looks: of the mesh.
+            number: gives the numbers that vertices of its own have there; None: the same.
+        """
+        if self.octants is None:
+            return TrimmedSurface(mesh, None, looks)
+        guess = self.__dict__.get("_rim_rows", self.rim_guess)
+        if guess is not None and number is not None:
+            guess = number(guess).astype(np.int64)
+        return TrimmedSurface(mesh, self.octants, looks, guess)
 
     @property
     def triangles(self) -> int:
@@ -198,7 +217,12 @@ class TrimmedSurface:
     @cached_property
     def _rim_rows(self) -> Ints:
         """The mesh's vertices at the rim, as they are at the octants' rim; -1 for none."""
-        return equal_rows(self._inner.rim_points, self.mesh.vertices)
+        points, guess = self._inner.rim_points, self.rim_guess
+        if guess is not None and len(guess) == len(points):
+            found = np.take(self.mesh.vertices, guess, axis=0, mode="clip")
+            if np.array_equal(found, points) and (guess >= 0).all():
+                return guess
+        return equal_rows(points, self.mesh.vertices)
 
     @cached_property
     def _rim_triangles(self) -> Ints | None:

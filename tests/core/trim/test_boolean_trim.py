@@ -142,6 +142,18 @@ def test_octants_that_do_not_fit_to_the_cut_are_found_out():
     assert (found.watertight, found.open_edges) == (False, 3)
 
 
+def test_where_vertices_at_the_rim_are_is_looked_up_where_a_guess_is_wrong():
+    surface = trimmed(samples.sphere(25.0)).surface
+    points, rows = surface.octants.rim_points, surface.rim_rows
+    turned = TriangleMesh(
+        surface.mesh.vertices[::-1], len(surface.mesh.vertices) - 1 - surface.mesh.triangles
+    )
+    for number in (None, lambda old: old + 1, lambda old: -1 - old):
+        other = surface.on(turned, number=number)
+        np.testing.assert_array_equal(turned.vertices[other.rim_rows], points)
+        np.testing.assert_array_equal(other.rim_rows, len(surface.mesh.vertices) - 1 - rows)
+
+
 @pytest.mark.slow
 def test_the_boolean_takes_only_what_the_wall_crosses():
     """Twice the size has eight times the octants, but the wall crosses only four times as many."""

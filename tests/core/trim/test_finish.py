@@ -212,7 +212,7 @@ def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
         vertices = mesh.vertices.copy()
         vertices[0] += [70.0, 55.0, 40.0]  # a corner through the opposite faces
         every = np.arange(len(mesh.triangles))
-        return TriangleMesh(vertices, mesh.triangles), every >= 0, every
+        return TriangleMesh(vertices, mesh.triangles), every >= 0, every, None
 
     monkeypatch.setattr("volfrep.trim.finish.without_slivers", bad)
     assert tidy(TrimmedSurface(box), 1e-4, Monitor()).mesh is box
@@ -225,7 +225,7 @@ def test_slivers_away_from_all_octants_take_none_of_these_along(monkeypatch):
     def rebuilt(mesh, tolerance, among=None):
         corner = mesh.vertices.sum(axis=1).argmin()
         new = (mesh.triangles == corner).any(axis=1)
-        return mesh, new, np.arange(len(new))
+        return mesh, new, np.arange(len(new)), None
 
     monkeypatch.setattr("volfrep.trim.finish.without_slivers", rebuilt)
     monkeypatch.setattr(TrimmedSurface, "has_inner_edges", lambda surface, among: True)
@@ -241,7 +241,7 @@ def test_new_triangles_are_those_that_were_not_there():
     vertices = part.vertices.copy()
     vertices[b] = vertices[a] + 3e-5
     pinched = TriangleMesh(vertices, part.triangles)
-    mesh, new, was = without_slivers(pinched, 1e-4)
+    mesh, new, was, number = without_slivers(pinched, 1e-4)
     assert len(mesh.triangles) == len(part.triangles) - 2
 
     def places(mesh, rows):
@@ -253,6 +253,7 @@ def test_new_triangles_are_those_that_were_not_there():
     assert not places(mesh, new) & old
     assert places(mesh, ~new) <= old
     assert np.array_equal(new, was < 0)
+    np.testing.assert_array_equal(mesh.triangles[~new], number[pinched.triangles[was[~new]]])
     for row in np.flatnonzero(~new):
         assert places(mesh, [row]) == places(pinched, [was[row]])
 

@@ -9,7 +9,7 @@ by where it lies. No coordinates are compared.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,6 +63,24 @@ _STEPS = np.stack(np.unravel_index(np.arange(27), (3, 3, 3)), axis=1)
 
 def lay_out(grid: OctantGrid, octants: dict[OctantKey, Octant]) -> Layout:
     """Number the vertices of all the octants of the grid, each once."""
+    places, count = _counted(grid, octants)
+    total = int(count.sum(dtype=np.int64))
+    base = np.cumsum(count, dtype=np.int32)
+    base -= count
+    return Layout(grid, octants, places, base.reshape(_complex_shape(grid)), total)
+
+
+def lay_out_some(layout: Layout, where: NDArray[np.bool_]) -> Layout:
+    """Some of the octants without their corners, numbered as among all; their own count."""
+    grid = replace(layout.grid, kind=np.where(where, layout.grid.kind, np.int16(-1)))
+    places, count = _counted(grid, layout.octants)
+    return Layout(grid, layout.octants, places, layout.base, int(count.sum(dtype=np.int64)))
+
+
+def _counted(
+    grid: OctantGrid, octants: dict[OctantKey, Octant]
+) -> tuple[list[NDArray[np.int64]], NDArray[np.int32]]:
+    """Per key of the grid where it lies, and how many vertices all parts of the complex have."""
     count = np.zeros(int(np.prod(_complex_shape(grid))), np.int32)
     places = [np.argwhere(grid.kind == k) for k in range(len(grid.keys))]
     for key, place in zip(grid.keys, places, strict=True):
@@ -71,9 +89,7 @@ def lay_out(grid: OctantGrid, octants: dict[OctantKey, Octant]) -> Layout:
         for entity in np.flatnonzero(number):
             i, j, k = _STEPS[entity]
             count[x[i] + y[j] + z[k]] = number[entity]
-    end = np.cumsum(count, dtype=np.int64)
-    base = (end - count).astype(np.int32).reshape(_complex_shape(grid))
-    return Layout(grid, octants, places, base, int(end[-1]))
+    return places, count
 
 
 def numbers(layout: Layout, octant: Octant, place: NDArray[np.int64]) -> NDArray[np.int32]:
@@ -167,10 +183,17 @@ def box(layout: Layout) -> Floats:
         if not len(octant.vertices) or not len(place):
             continue
         steps = in_steps(grid, octant)
-        extremes = np.stack([steps.min(axis=0), steps.max(axis=0)])
-        corner, sign = layout.frames(place)
-        ends = placed(grid, corner[:, None, :], sign[:, None, :] * extremes)
-        boxes.append(box_of(ends.reshape(-1, 3)))
+        least, most = steps.min(axis=0), steps.max(axis=0)
+        # Along each axis, in whole steps, that of octants of either direction.
+        corners, signs = layout.frames(place)
+        low, high = np.full(3, np.inf), np.full(3, -np.inf)
+        for axis, (corner, sign) in enumerate(zip(corners.T, signs.T, strict=True)):
+            for chosen, ends in ((sign > 0, (least, most)), (sign < 0, (-most, -least))):
+                along = corner[chosen]
+                if len(along):
+                    low[axis] = min(low[axis], along.min() * (2.0 * STEPS) + ends[0][axis])
+                    high[axis] = max(high[axis], along.max() * (2.0 * STEPS) + ends[1][axis])
+        boxes.append(placed(grid, np.zeros(3, np.int64), np.stack([low, high])))
     return box_of(np.concatenate(boxes)) if boxes else np.zeros((2, 3))
 
 

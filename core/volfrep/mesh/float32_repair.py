@@ -21,6 +21,8 @@ from .precision import merging_vertices
 from .topology import edge_keys, open_vertices, touching, vertices_of
 from .triangle_mesh import TriangleMesh, compact, compacted
 
+#: By rounding a height may come out so many times as large, from whichever corner it is taken.
+NEARLY = 1.001
 #: Edges shorter than this many steps of float32 at the mesh's farthest coordinate are removed.
 STEPS = 16
 #: Passes over the edges: each takes those that do not touch each other.
@@ -268,7 +270,8 @@ def _flip_slivers(
         wanted: NDArray[np.float64] = np.where(old < tolerance, new - 1.5 * old, -1.0)
         return wanted
 
-    return remesh.flip(points, triangles, gain, _none)
+    thin = remesh.heights(points[triangles]) < NEARLY * tolerance
+    return remesh.flip(points, triangles, gain, _none, thin)
 
 
 def _close_slivers(

@@ -276,6 +276,7 @@ def flip(
     triangles: Ints,
     gain: Callable[[Ints, Ints], Floats],
     forbidden: Callable[[Ints, Ints], Bools],
+    among: Bools | None = None,
 ) -> tuple[Ints, int]:
     """One pass of edge flips; returns the new triangles and how many edges were flipped.
 
@@ -285,10 +286,14 @@ def flip(
         gain: called with the (k, 2) ends of the edges that could be flipped and the (k, 2)
             corners that the flipped edges would join; positive where a flip is wanted.
         forbidden: called with (k,) corners; whether no new edge may join the two.
+        among: (m,) bool, triangles beside which all the flips lie that are wanted; None: any.
     """
     count = len(vertices)
     table = edges(triangles, count)
-    inner = np.flatnonzero(table.triangles[:, 1] >= 0)
+    is_inner = table.triangles[:, 1] >= 0
+    if among is not None:
+        is_inner &= among[table.triangles].any(axis=1)
+    inner = np.flatnonzero(is_inner)
     ends, corners = table.ends[inner], table.opposite[inner]
     pair = table.triangles[inner]
     keys = np.sort(edge_keys(table.ends[:, 0], table.ends[:, 1], count))
@@ -368,18 +373,26 @@ def halve(
 
 
 def split(
-    vertices: Floats, triangles: Ints, wanted: Callable[[Ints, Ints], Bools]
+    vertices: Floats,
+    triangles: Ints,
+    wanted: Callable[[Ints, Ints], Bools],
+    among: Ints | None = None,
 ) -> tuple[Floats, Ints]:
     """Split the wanted inner edges at their middles; new vertices follow the old ones.
 
-    `wanted` is called with the (k,) ends of the inner edges; it is not asked about new edges.
+    Args:
+        vertices: (n, 3).
+        triangles: (m, 3).
+        wanted: called with the (k,) ends of the inner edges; it is not asked about new edges.
+        among: ascending, triangles on both sides of all that are wanted; None: all.
     """
     count = len(vertices)
-    table = edges(triangles, count)
+    among = np.arange(len(triangles)) if among is None else among
+    table = edges(triangles[among], count)
     inner = table.triangles[:, 1] >= 0
     ends = table.ends[inner]
     chosen = wanted(ends[:, 0], ends[:, 1])
-    todo, rows = ends[chosen], np.unique(table.triangles[inner][chosen])
+    todo, rows = ends[chosen], among[np.unique(table.triangles[inner][chosen])]
     middle = 0.5 * (vertices[todo[:, 0]] + vertices[todo[:, 1]])
     vertices = np.concatenate([vertices, middle])
     fresh = np.arange(count, len(vertices))

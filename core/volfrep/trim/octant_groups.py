@@ -306,7 +306,7 @@ def _split(mesh: TriangleMesh, longest: float, low: Floats, high: Floats) -> Tri
         corners = [[points[triangles[:, k], axis] for k in range(3)] for axis in range(3)]
         squares = [[(a - b) ** 2 for a, b in zip(c, c[1:] + c[:1], strict=True)] for c in corners]
         sides = np.stack([x + y + z for x, y, z in zip(*squares, strict=True)], axis=1)
-        rows = np.flatnonzero((sides > longest**2).any(axis=1))
+        rows = long = np.flatnonzero((sides > longest**2).any(axis=1))
         spans = [
             (np.minimum(np.minimum(a, b), c)[rows], np.maximum(np.maximum(a, b), c)[rows])
             for a, b, c in corners
@@ -326,7 +326,7 @@ def _split(mesh: TriangleMesh, longest: float, low: Floats, high: Floats) -> Tri
         wanted = partial(
             among_edges, keys=np.unique(edge_keys(ends[:, 0], ends[:, 1], count)), count=count
         )
-        points, triangles = remesh.split(points, triangles, wanted)
+        points, triangles = remesh.split(points, triangles, wanted, long)
 
 
 def _touching(low: Floats, high: Floats, boundary: TriangleMesh, near: float) -> Ints:

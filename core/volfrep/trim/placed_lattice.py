@@ -17,6 +17,7 @@ from ..lattice.assembly import (
     facets,
     in_steps,
     lay_out,
+    lay_out_some,
     neighbour_missing,
     numbers,
     placed,
@@ -66,9 +67,7 @@ class PlacedLattice(Placed):
 
     def alone(self, where: Bools) -> Layout:
         """Some of the octants without their corners, numbered as among all; their own count."""
-        grid = self.layout.grid
-        some = replace(grid, kind=np.where(where, grid.kind, np.int16(-1)))
-        return replace(lay_out(some, self.octants), base=self.layout.base)
+        return lay_out_some(replace(self.layout, octants=self.octants), where)
 
     @cached_property
     def is_proved_by_kind(self) -> bool:

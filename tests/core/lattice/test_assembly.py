@@ -9,7 +9,15 @@ from exact import DENSITY, distances_to_one_cell, in_lattice
 from samples import SKEW
 from volfrep.design.cells import LIBRARY, PAPERS, find_cell
 from volfrep.grid.strut_graph import cell_graph
-from volfrep.lattice.assembly import coordinates, facets, lay, lay_out, neighbour_missing
+from volfrep.lattice.assembly import (
+    box,
+    coordinates,
+    facets,
+    lay,
+    lay_out,
+    lay_out_some,
+    neighbour_missing,
+)
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh, compact
 from volfrep.octants.caps import with_corners
@@ -66,6 +74,24 @@ def test_scattered_cells_give_closed_surfaces_too(cell):
     assert found.genus == len(graph.struts) - len(graph.nodes) + pieces
     volume, deviation = monte_carlo_volume(cell, active, 0.8)
     assert found.volume == pytest.approx(volume, abs=0.005 * volume + 3 * deviation)
+
+
+@pytest.mark.parametrize("cell", [find_cell("BCC"), SKEW], ids=lambda c: c.name)
+def test_some_octants_keep_their_numbers_and_lie_in_the_box_of_their_vertices(cell):
+    monitor, active = Monitor(), np.zeros((2, 3, 2), bool)
+    active[0, 1, 0] = active[1, 2, 1] = True
+    grid = octant_grid(cell, active, L, np.array([0.3, -7.1, 2.9]))
+    octants = mesh_octants(cell, OctantSpec(L, 0.8, 0.0, 12), grid.keys, monitor)
+    whole = lay_out(grid, octants)
+    where = np.random.default_rng(3).random(grid.kind.shape) < 0.4
+    some = lay_out_some(whole, where)
+    np.testing.assert_array_equal(
+        np.unique(facets(some, monitor)), np.unique(facets(whole, monitor, where))
+    )
+    assert some.count == len(np.unique(facets(some, monitor)))
+    for layout, used in ((whole, slice(None)), (some, np.unique(facets(some, monitor)))):
+        points = coordinates(whole, monitor)[used]
+        np.testing.assert_array_equal(box(layout), [points.min(axis=0), points.max(axis=0)])
 
 
 def _pieces(nodes, struts):

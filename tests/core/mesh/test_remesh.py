@@ -104,6 +104,27 @@ def test_splitting_edges_adds_their_middles_and_keeps_the_surface_closed():
     assert abs(found.volume - ball.volume) < 1e-9 * ball.volume
 
 
+def test_where_splits_and_flips_are_wanted_is_all_that_has_to_be_looked_at():
+    ball = samples.sphere(10.0, 2)
+    triangles, cap = ball.triangles.astype(np.int64), ball.vertices[:, 2] > 4.0
+    wanted = lambda one, two: cap[one] & cap[two]  # noqa: E731
+    beside = cap[triangles].sum(axis=1) >= 2
+    assert 10 < beside.sum() < 0.5 * len(beside)
+    every = remesh.split(ball.vertices, triangles, wanted)
+    some = remesh.split(ball.vertices, triangles, wanted, np.flatnonzero(beside))
+    for one, two in zip(every, some, strict=True):
+        np.testing.assert_array_equal(one, two)
+
+    def gain(ends, corners):
+        return np.where(cap[ends].all(axis=1), 1.0 + corners[:, 0], -1.0)
+
+    every, some = (
+        remesh.flip(ball.vertices, triangles, gain, _nothing, among) for among in (None, beside)
+    )
+    assert every[1] == some[1] > 5
+    np.testing.assert_array_equal(every[0], some[0])
+
+
 def test_an_equilateral_triangle_has_quality_one():
     corners = np.array([[[0.0, 0, 0], [1, 0, 0], [0.5, np.sqrt(0.75), 0]]])
     np.testing.assert_allclose(remesh.qualities(corners), 1.0)

@@ -24,7 +24,7 @@ from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 from volfrep.util.errors import VolfrepError
 
 from .colours.colouring import Colouring, add_properties
-from .jobs.in_steps import do_in_steps, drop_steps
+from .in_steps import do_in_steps, drop_steps
 from .jobs.stale_bar import refresh_bar
 from .printing.slicer_view import SlicerInfillView as SlicerInfillView  # saved by this name
 from .qt import QtCore, QtGui

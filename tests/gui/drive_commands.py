@@ -622,6 +622,7 @@ def take_away_what_is_previewed(doc, obj):
     base = obj.Base
     base.Visibility = True
     toggle_preview(obj)
+    settle()
     check("the solid is hidden", not base.ViewObject.isVisible())
     doc.removeObject(obj.Name)
     check("an infill that goes takes its preview along", previews() == 0, previews())
@@ -629,6 +630,7 @@ def take_away_what_is_previewed(doc, obj):
     doc.undo()
     again = infills(doc)[0]
     toggle_preview(again)
+    settle()
     check("it can be previewed again", previews() == 1, previews())
     App.closeDocument(doc.Name)
     settle()

@@ -5,16 +5,22 @@ In the real FreeCAD window; see tools/run_gui.sh. Leaves with 0 when every check
 """
 
 import sys
+import threading
 from itertools import pairwise
 from pathlib import Path
 
+import FreeCAD as App
 import FreeCADGui as Gui
+import Import
 import Part
 from PySide import QtCore, QtGui
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from driving import (
+    PATIENCE,
+    Standstills,
     check,
+    choose_lattice,
     click,
     costly,
     figures,
@@ -24,6 +30,7 @@ from driving import (
     panel,
     panel_part,
     picture,
+    previews,
     run_checks,
     select,
     settle,
@@ -31,12 +38,15 @@ from driving import (
     told,
     toolbar_button,
     type_value,
+    wait,
     wait_until,
     when_dialog,
     window,
     xdotool,
 )
 from new_infill import boxed, cancelled, opened
+
+from bench.parts import NO_PARTS, PARTS
 
 
 def section(name):
@@ -255,6 +265,69 @@ def see_what_the_printer_minds(doc, box):
     cancelled()
 
 
+@slow
+def preview_a_real_part():
+    """Kinds of lattice in the GE bracket: for how long the window stands still, and for what."""
+    if not PARTS.is_dir():
+        print(f"preview_a_real_part is skipped: {NO_PARTS}", flush=True)
+        return
+    App.newDocument("Real")
+    Import.insert(str(PARTS / "ge_bracket.step"), "Real")
+    Gui.SendMsgToActiveView("ViewFit")
+    base = next(obj for obj in App.ActiveDocument.Objects if obj.isDerivedFrom("Part::Feature"))
+    settle()
+    stops = Standstills()
+    obj = opened(base)
+    stops.tell("the panel opens")
+    for tab, kind in (("TPMS", "Gyroid"), ("Unit cells", "BCC"), ("Networks", "Voronoi")):
+        choose_lattice(tab, kind)
+        stops.tell(kind)
+        check(f"{kind} is shown", "relative density" in told(), told())
+        picture(f"panel_real_{kind}")
+        stops.tell("its picture")
+    choose_lattice("TPMS", "Gyroid")
+    for size in ("12 mm", "11 mm"):
+        type_value("CellSize", size)
+        stops.tell(f"Gyroid of {size}")
+    check("the figures are of the last", f"{obj.CellSize.Value:g}" == "11")
+    stops.end()
+    cancelled()
+
+
+def go_on_while_a_preview_is_made(doc, box):
+    """The window answers while the engine is at a preview; a later value drops the earlier."""
+    from volfrep.jobs import preview as engine
+
+    opened(box)
+    before, made, go_on = told(), [], threading.Event()
+
+    def wait_for_the_window(solid, spec, depth):
+        made.append(spec.strut_radius)
+        if len(made) == 1 and not go_on.wait(PATIENCE):
+            raise AssertionError("the window stands still while a preview is made")
+        depth.monitor.tick()
+        return real(solid, spec, depth)
+
+    real, engine.preview = engine.preview, wait_for_the_window
+    try:
+        panel_part("StrutRadius").setProperty("rawValue", 0.9)
+        check("a preview begins", wait_until(lambda: made))
+        check("figures of other values turn grey",
+              wait_until(lambda: not panel_part("Figures").isEnabled()))  # fmt: skip
+        check("which stay until it is there", told() == before)
+        panel_part("StrutRadius").setProperty("rawValue", 1.3)
+        wait(100)
+        go_on.set()
+        settle()
+    finally:
+        engine.preview = real
+        go_on.set()
+    check("the last value's is made after it", made[1:] == [1.3], made)
+    check("and told", panel_part("Figures").isEnabled() and told() != before, told())
+    cancelled()
+    check("nothing is left in the view", previews() == 0, previews())
+
+
 @costly
 def drag_a_curve(doc, box):
     """A grading's curve by mouse and keys, beside its formula."""
@@ -351,6 +424,8 @@ run_checks(
         type_a_sum: boxed,
         start_from_a_recipe: boxed,
         see_what_the_printer_minds: boxed,
+        go_on_while_a_preview_is_made: boxed,
+        preview_a_real_part: None,
         drag_a_curve: boxed,
         install_what_is_missing: boxed,
     },

@@ -5,12 +5,12 @@ Run it with tools/run_gui.sh.
 """
 
 import time
-from itertools import pairwise
 
 import FreeCAD as App
 import FreeCADGui as Gui
 from driving import (
     OUT,
+    Standstills,
     answer_file_dialog,
     answer_panel,
     check,
@@ -602,10 +602,7 @@ def open_and_size_the_bracket():
         print(f"open_and_size_the_bracket is skipped: {NO_PARTS}", flush=True)
         return
     clicks.clear()
-    beats = []
-    timer = QtCore.QTimer(Gui.getMainWindow())
-    timer.timeout.connect(lambda: beats.append(time.monotonic()))
-    timer.start(10)
+    stops = Standstills()
     answer_file_dialog(PARTS / "ge_bracket.step", "bracket_0_open")
     begun = time.monotonic()
     click_menu("File", "Open...")
@@ -631,32 +628,25 @@ def open_and_size_the_bracket():
         lambda: rows()[1] == "Force 8,000 N, -Z: Face30, Face39"), rows())  # fmt: skip
     picture("bracket_3_loaded")
     choose("PrintMaterial", "Ti-6Al-4V", lambda: obj.PrintMaterial)
-    figures["stood still from the file to the loads, s"] = stops(beats)
-    beats.clear()
+    stops.tell("from the file to the loads")
     start_answer("OK")
     check("a report opens", wait_until(lambda: len(reports()) == 1, MINUTES))
-    figures["stood still while it was sized, s"] = stops(beats)
+    stops.tell("while it was sized")
     figures["clicks from File > Open to the report"] = len(clicks)
     figures["seconds from File > Open to the report"] = round(time.monotonic() - begun, 1)
     shoot("bracket_4_report")  # its mesh is still being made
-    beats.clear()
+    stops.tell("the report")
     check("its struts are sized", obj.RadiusGrading == "Field" and len(obj.SizedRadii) > 10)
     reports()[0].close()
     settle(MINUTES)
-    timer.stop()
-    figures["stood still until its mesh was there, s"] = stops(beats)
+    stops.end()
+    stops.tell("until its mesh was there")
     figures["seconds from File > Open to its mesh"] = round(time.monotonic() - begun, 1)
-    told = ("from File", "stood still")
-    print({k: v for k, v in figures.items() if any(word in k for word in told)}, flush=True)
+    print({k: v for k, v in figures.items() if "from File" in k}, flush=True)
     check("in ten clicks", len(clicks) <= 10, len(clicks))
     check("it is up to date", obj.Status == "Up to date", obj.Status)
     check("and shown in place of the solid", obj.Visibility and not base.Visibility)
     picture("bracket_5_mesh")
-
-
-def stops(beats):
-    """The five longest times for which Qt's loop stood still, s, of ours or a busy machine's."""
-    return sorted((round(b - a, 2) for a, b in pairwise(beats)), reverse=True)[:5]
 
 
 def make_more_cases(doc, obj):

@@ -11,8 +11,10 @@ fails the check that is running.
 import faulthandler
 import json
 import os
+import re
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import traceback
@@ -25,6 +27,7 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 from freecad_volfrep.gui.jobs.background import are_there_jobs
+from freecad_volfrep.gui.latest import are_there_questions
 
 OUT = Path(os.environ["GUI_OUT"])
 #: Of what must come, in s: only what never comes takes so long.
@@ -69,6 +72,72 @@ def wait(milliseconds):
     loop = QtCore.QEventLoop()
     QtCore.QTimer.singleShot(milliseconds, loop.quit)
     (loop.exec if hasattr(loop, "exec") else loop.exec_)()
+
+
+class Standstills:
+    """Times for which Qt's loop stood still, and what Python was at then, until they are `told`.
+
+    A thread of the interpreter's own, which waits for nobody, writes down where Python is whenever
+    the loop's next turn does not come.
+    """
+
+    #: Not worth a word, s.
+    LEAST = 0.1
+    #: Between turns of the loop, ms.
+    BEAT = 10
+
+    def __init__(self):
+        self._places = tempfile.TemporaryFile("w+")  # noqa: SIM115  as long as it looks
+        self._found = []
+        self._last = time.monotonic(), time.thread_time()
+        self._timer = QtCore.QTimer(Gui.getMainWindow())
+        self._timer.timeout.connect(self._beat)
+        self._timer.start(self.BEAT)
+
+    def _beat(self):
+        faulthandler.cancel_dump_traceback_later()
+        now = time.monotonic(), time.thread_time()
+        wall, processor = (b - a for a, b in zip(self._last, now, strict=True))
+        self._last = now
+        if wall > self.LEAST:
+            self._places.seek(0)
+            self._found.append((wall, processor, _places(self._places.read())))
+        self._places.seek(0)
+        self._places.truncate()
+        faulthandler.dump_traceback_later(self.LEAST, repeat=True, file=self._places)
+
+    def tell(self, what):
+        """Print and note those since the last time, and what the main thread did in them.
+
+        Where the driver itself waits for its tools is left out.
+        """
+        found, self._found = self._found, []
+        kept = []
+        for wall, processor, places in found:
+            ours = [place for place in places if not place.startswith(("driving", "subprocess"))]
+            if ours or not places:
+                kept.append((round(wall, 2), round(processor, 2), ours))
+        figures[f"stood still, s, of a processor, where: {what}"] = kept
+        for wall, processor, places in kept:
+            print(f"{what}: {wall} s, {processor} s of a processor", file=sys.__stdout__)
+            for place in places:
+                print(f"    {place}", file=sys.__stdout__, flush=True)
+
+    def end(self):
+        """Look no more."""
+        self._timer.stop()
+        faulthandler.cancel_dump_traceback_later()
+
+
+def _places(dumped):
+    """Where the main thread was each time, from what faulthandler wrote: file:line function."""
+    found = []
+    for dump in dumped.split("Timeout (")[1:]:
+        lines = dump.rpartition("Thread 0x")[2].splitlines()[1:]
+        calls = re.findall(r'File "(.*?)", line (\d+) in (\S+)', "\n".join(lines))
+        short = [f"{Path(file).stem}:{line} {name}" for file, line, name in calls]
+        found.append(" < ".join(short[:8]))
+    return found
 
 
 def comes_true(condition, seconds):
@@ -156,6 +225,8 @@ def _unsettled():
     """What the window has still to do, or an empty text."""
     if are_there_jobs():
         return "a mesh is being made"
+    if are_there_questions():
+        return "a preview is being made"
     form = panel()
     if form is not None and any(timer.isActive() for timer in form.findChildren(QtCore.QTimer)):
         return "the panel's timer"

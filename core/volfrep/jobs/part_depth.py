@@ -71,9 +71,11 @@ class PartDepth:
         open_faces: faces that have no skin, as `LatticeSpec` has them.
         face_skins: faces with a skin thickness of their own.
         keep_solid: what the part stays solid round, and in.
+        monitor: asked whether to go on.
 
     Attributes:
         bodies: how many the part has.
+        monitor: the one that is asked now; each preview may have one of its own.
 
     Raises:
         VolfrepError: a face is not found, or all of them are open.
@@ -85,8 +87,9 @@ class PartDepth:
         open_faces: tuple[OpenFace, ...] = (),
         face_skins: tuple[FaceSkin, ...] = (),
         keep_solid: tuple[KeptFace | KeptBody, ...] = (),
+        monitor: Monitor | None = None,
     ) -> None:
-        self._solid = solid
+        self._solid, self.monitor = solid, monitor or Monitor()
         diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
         self._surface = index_surface(solid, diagonal / SAMPLES_ALONG)
         # A skin without a thickness yet: that is asked for later.
@@ -106,7 +109,7 @@ class PartDepth:
     def domain(self, skin: Skin | None) -> TriangleMesh:
         """What lies below a skin, as the part's own stages find it; the last one is kept."""
         if self._domain is None or self._domain[0] != skin:
-            self._domain = skin, find_domain(self._solid, skin, Monitor()).mesh
+            self._domain = skin, find_domain(self._solid, skin, self.monitor).mesh
         return self._domain[1]
 
     def below_skin(self, points: Floats, shell: float) -> Floats:
@@ -128,10 +131,12 @@ class PartDepth:
         return self.below_skin(points, 0.0) - shell
 
     def _found_below(self, points: Floats, shell: float) -> Floats:
+        self.monitor.tick()
         depth = self._surface.near(points)[1]
+        self.monitor.tick()
         # On which side a point lies does not matter where it is nearer than the skin is thick.
         far = np.flatnonzero(depth > (shell if self._is_even else 0.0))
-        outside = far[~inside_points(self._solid, points[far], Monitor())]
+        outside = far[~inside_points(self._solid, points[far], self.monitor)]
         depth[outside] *= -1.0
         if self._is_even:
             return depth - shell
@@ -167,6 +172,6 @@ class PartDepth:
                 result = np.minimum(result, index.near(points)[1] - length)
         for body in self._kept:
             distance = closest_points(body, points)[1]
-            sign = np.where(inside_points(body, points, Monitor()), -1.0, 1.0)
+            sign = np.where(inside_points(body, points, self.monitor), -1.0, 1.0)
             result = np.minimum(result, sign * distance)
         return result

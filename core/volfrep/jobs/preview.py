@@ -75,9 +75,9 @@ class ShownCells:
     lines: tuple[Floats, Floats]
 
 
-def place_lattice(solid: TriangleMesh, spec: LatticeSpec) -> Placement:
+def place_lattice(solid: TriangleMesh, spec: LatticeSpec, monitor: Monitor) -> Placement:
     """Where the lattice lies in a solid."""
-    return placement_in(solid, spec.grid, spec.ending.cuts_struts(spec.skin), Monitor())
+    return placement_in(solid, spec.grid, spec.ending.cuts_struts(spec.skin), monitor)
 
 
 def show_cells(
@@ -92,7 +92,7 @@ def show_cells(
     if mapping is None:
         grid = make_grid(solid.bounds, spec.cell_size, spec.origin)
     else:
-        grid = mapped_grid(solid, mapping, spec.cell_size, spec.origin, Monitor())
+        grid = mapped_grid(solid, mapping, spec.cell_size, spec.origin, depth.monitor)
     refuse_cells(grid.cells, grid.cell_size)
     usable = padded_grid(grid, mapping, least).inner_usable
     active, count = _active(grid, spec, mapping, depth, usable)

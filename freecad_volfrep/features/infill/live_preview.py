@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from volfrep.design.spec import LatticeSpec
     from volfrep.jobs.preview import Preview
     from volfrep.mesh.triangle_mesh import TriangleMesh
+    from volfrep.util.progress import Monitor
 
 
 #: The property of each driver of the radius.
@@ -106,8 +107,35 @@ class Shown:
         return figures[driver]
 
 
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """What a preview is to be of: all that is read of the document for it.
+
+    Attributes:
+        spec: the lattice.
+        mesh: the solid, not checked, in the coordinates of the infill's group.
+        name: the solid's, for sentences on what is wrong with it.
+    """
+
+    spec: LatticeSpec
+    mesh: TriangleMesh
+    name: str
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What the engine makes of it; attributes as of `Shown`."""
+
+    solid: TriangleMesh
+    preview: Preview
+    forecast: Forecast
+
+
 class LivePreview:
-    """Makes previews of one infill; what depends on its solid alone is kept between them."""
+    """Makes previews of one infill; what depends on its solid alone is kept between them.
+
+    `answer` touches nothing of the document and may be called on another thread, one at a time.
+    """
 
     def __init__(self, obj: App.DocumentObject) -> None:
         self._obj = obj
@@ -120,31 +148,61 @@ class LivePreview:
         Raises:
             VolfrepError: they make no sense, or do not fit the solid.
         """
-        require_engine()
-        return self.show_spec(*self._obj.Proxy.read(self._obj))
+        from volfrep.util.progress import Monitor
 
-    def show_spec(self, spec: LatticeSpec, mesh: TriangleMesh) -> Shown:
-        """The same of another specification in the infill's solid."""
+        asked = self.ask()
+        return self.shown(asked, self.answer(asked, Monitor()))
+
+    def ask(self, spec: LatticeSpec | None = None) -> Asked:
+        """Read what a preview of the present properties needs; or of another specification.
+
+        Raises:
+            VolfrepError: a property makes no sense, or there is no solid.
+        """
+        require_engine()
+        present, mesh = self._obj.Proxy.read(self._obj)
+        return Asked(present if spec is None else spec, mesh, self._obj.Base.Label)
+
+    def answer(self, asked: Asked, monitor: Monitor) -> Answer:
+        """Make what was asked for.
+
+        Raises:
+            VolfrepError: it makes no sense, or does not fit the solid.
+            Cancelled: the monitor says so.
+        """
         from volfrep.design.forecast import forecast_fill
         from volfrep.io.solid import check_solid
         from volfrep.jobs.preview import PartDepth, preview
 
+        spec, mesh = asked.spec, asked.mesh
         faces = (spec.open_faces, spec.face_skins, spec.keep_solid)
         key = digest_of(mesh.vertices, mesh.triangles, faces)
         if self._key != key:
-            solid = check_solid(mesh, self._obj.Base.Label)
-            self._known = solid, PartDepth(solid, *faces)
+            solid = check_solid(mesh, asked.name)
+            monitor.tick()
+            self._known = solid, PartDepth(solid, *faces, monitor)
             self._key = key
         solid, depth = self._known
+        depth.monitor = monitor
         shown = preview(solid, spec, depth)
+        monitor.tick()
+        return Answer(solid, shown, forecast_fill(solid, shown.spec))
+
+    def shown(self, asked: Asked, answer: Answer) -> Shown:
+        """The answer, and what the document says about it.
+
+        Raises:
+            VolfrepError: its material makes no sense.
+        """
+        spec = answer.preview.spec
         return Shown(
-            solid,
-            shown,
-            forecast_fill(solid, shown.spec),
-            advice(self._obj, shown.spec.struts.extremes[0]),
-            stiffness_of(self._obj, shown.spec),
-            is_of(self._obj.Fingerprint, self._obj, spec, mesh),
-            is_of(self._obj.SizedFor, self._obj, spec, mesh),
+            answer.solid,
+            answer.preview,
+            answer.forecast,
+            advice(self._obj, spec.struts.extremes[0]),
+            stiffness_of(self._obj, spec),
+            is_of(self._obj.Fingerprint, self._obj, asked.spec, asked.mesh),
+            is_of(self._obj.SizedFor, self._obj, asked.spec, asked.mesh),
         )
 
 

@@ -34,7 +34,7 @@ from volfrep.design.target import stiffness_text
 from volfrep.util.errors import Cancelled, VolfrepError
 
 if TYPE_CHECKING:
-    from freecad_volfrep.features.infill.live_preview import LivePreview, Shown
+    from volfrep.design.spec import LatticeSpec
     from volfrep.process.worker import Program
     from volfrep.studies.study import Study
 
@@ -376,23 +376,21 @@ def unit_of_moduli(obj: App.DocumentObject) -> str:
     return units[json.loads(obj.Table).get("in_mpa") if obj.Table else None]
 
 
-def shown_design(obj: App.DocumentObject, key: str, live: LivePreview) -> Shown:
-    """The preview of one of a study's designs.
+def design_spec(obj: App.DocumentObject, key: str) -> LatticeSpec:
+    """The lattice of one of a study's designs.
 
     Args:
         obj: a design study.
         key: of one of its designs.
-        live: makes previews of its infill.
 
     Raises:
-        VolfrepError: there is no such design, or it does not go with the present solid.
+        VolfrepError: there is no such design, or its values make no sense.
     """
     from volfrep.studies.designs import specified
 
     varied = {name: _row(obj, key)[name] for name in varied_of_study(obj)}
     values = {**_fixed(obj.Infill, varied), **varied}
-    _, solid = obj.Infill.Proxy.read(obj.Infill)
-    return live.show_spec(specified(values, material_of(obj.Infill)), solid)
+    return specified(values, material_of(obj.Infill))
 
 
 def _row(obj: App.DocumentObject, key: str) -> dict[str, Any]:

@@ -13,8 +13,8 @@ from freecad_volfrep.features.jobs.progress import job_title
 from freecad_volfrep.features.sizing.sized_states import limit_names
 from freecad_volfrep.gui.draw.coloured_struts import colours_of, row_colours
 from freecad_volfrep.gui.draw.legend import Legend
+from freecad_volfrep.gui.in_steps import do_in_steps, drop_steps
 from freecad_volfrep.gui.jobs.background import begin
-from freecad_volfrep.gui.jobs.in_steps import do_in_steps, drop_steps
 from freecad_volfrep.gui.messages import tell_error
 from freecad_volfrep.sentences import localise
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate

@@ -103,13 +103,8 @@ def open_faces(selected: tuple[App.DocumentObject, Any]) -> None:
 
 def preview_only(infill: App.DocumentObject) -> None:
     """Show the struts of the present values without making a mesh, or take them away."""
-    with errors_shown():
-        if toggle_preview(infill):
-            said = translate(
-                "VolfrepCommands", "{label}: preview shown, figures in the report view"
-            )
-        else:
-            said = translate("VolfrepCommands", "{label}: preview off")
+    if not toggle_preview(infill):
+        said = translate("VolfrepCommands", "{label}: preview off")
         tell(said.format(label=infill.Label))
 
 

@@ -10,11 +10,11 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.engines import engines
 from freecad_volfrep.features.jobs.job import Job, State
+from freecad_volfrep.gui.in_steps import are_there_steps
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 from volfrep.util.errors import Cancelled
 
-from .in_steps import are_there_steps
 from .progress import SHOW_AFTER, Bar, is_waited_for
 
 if TYPE_CHECKING:

@@ -14,13 +14,13 @@ import FreeCADGui as Gui
 
 from freecad_volfrep.features.infill.infill_results import loaded
 from freecad_volfrep.features.jobs.job import State
+from freecad_volfrep.gui.in_steps import Stillness
 from freecad_volfrep.gui.qt import QtWidgets
 from freecad_volfrep.gui.undo import FOLLOWS
 from freecad_volfrep.gui.view.proxy_mesh import ProxyMesh
 from freecad_volfrep.translation import translate
 
 from .background import begin
-from .in_steps import Stillness
 
 if TYPE_CHECKING:
     import Mesh

@@ -15,7 +15,6 @@ from freecad_volfrep.features.infill.expressions import follow_expressions
 from freecad_volfrep.features.infill.factory import SHEET
 from freecad_volfrep.features.infill.live_preview import (
     TARGETS,
-    LivePreview,
     Shown,
     made_text,
     stiffness_of,
@@ -24,6 +23,7 @@ from freecad_volfrep.features.properties.quantities import is_driven, number_of,
 from freecad_volfrep.gui.jobs.updating import Update, begin_update, show_mesh
 from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
 from freecad_volfrep.gui.view.preview_only import end_preview
+from freecad_volfrep.gui.view.preview_thread import PreviewThread, ReadyPreview
 from freecad_volfrep.gui.view.preview_view import PreviewView
 from freecad_volfrep.gui.view.section_view import close_section, open_section
 from freecad_volfrep.gui.widgets.controls import Message, push_button
@@ -67,6 +67,8 @@ from .recipe_row import RecipeRow
 #: The preview waits until no value has changed for so long, ms: less where the last one was made
 #: within `PROMPT`, so that it keeps up with what is typed.
 SETTLED, SOON, PROMPT = 120, 20, 60
+#: Figures of values that are not the present ones any more are grey from now on, ms.
+LATE = 300
 #: The switches of what is shown in the view.
 PREVIEW = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Preview")
 CELLS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Cells")
@@ -94,19 +96,16 @@ class TaskPanel:
 
     def __init__(self, obj: App.DocumentObject, transaction: str | None = None) -> None:
         end_preview(obj)  # the panel shows one of its own
-        was_cut = close_section(obj)
+        self._opens_section = close_section(obj)
         self._obj, self._doc = obj, obj.Document
         if transaction is not None:
             self._doc.openTransaction(transaction)
-        self._live = LivePreview(obj)
         self._key = obj.Document.Name, obj.Name
         end_shown(self._key)
         self._view = _shown_views[self._key] = PreviewView(obj)
         self._was_visible = {
             shown: shown.ViewObject.Visibility for shown in (obj, obj.Base) if shown is not None
         }
-        for shown in self._was_visible:
-            shown.ViewObject.Visibility = False
         self._fields = PropertyFields(obj, self._value_changed, self._refuse)
         #: A sentence on what was typed or chosen, and the property that changed last.
         self._refusal = self._last = ""
@@ -116,16 +115,19 @@ class TaskPanel:
         self._shown: Shown | None = None
         self._seen: Shown | None = None  # the last that there was
         self._update: Update | None = None
-        self._is_open = True
+        self._is_open, self._is_first = True, True
         self.form = self._build()
+        self._previews = PreviewThread(obj, self.form)
         self._pause = SETTLED
-        self._timer = QtCore.QTimer(self.form)
-        self._timer.setSingleShot(True)
+        self._timer, self._late = (QtCore.QTimer(self.form) for _ in range(2))
         self._timer.timeout.connect(self.refresh)
+        self._late.timeout.connect(self._show_late)
+        self._late.setInterval(LATE)
+        for timer in (self._timer, self._late):
+            timer.setSingleShot(True)
+        self._asked = QtCore.QElapsedTimer()
         self._show_rows()
         self.refresh()
-        if was_cut:
-            open_section(obj, self._view)
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""
@@ -168,7 +170,8 @@ class TaskPanel:
 
         One that is being made for the same values already is left to come.
         """
-        self._timer.stop()
+        self._wait_no_more()
+        self._take_the_view()
         made = self._update
         if made is not None and made.is_as_wanted():
             made.is_in_panel, made.ended = is_in_panel, ended
@@ -215,33 +218,67 @@ class TaskPanel:
                 shown.ViewObject.Visibility = visible
 
     def refresh(self) -> None:
-        """Bring the preview and the figures up to the present values."""
-        clock = QtCore.QElapsedTimer()
-        clock.start()
-        self._show_present()
-        self._pause = SOON if clock.elapsed() < PROMPT else SETTLED
-
-    def _show_present(self) -> None:
+        """Have the preview and the figures brought up to the present values."""
+        self._asked.start()
+        self._late.start()
         try:
             follow_expressions(self._obj)
-            shown = self._live.show()
         except VolfrepError as error:
-            self._shown = None
-            self._view.show_solid_only()
-            may_be = self._may_be_computed()
-            self._say(str(error), wrong=not may_be)
-            self._print.show_none()
-            self._allow_ok(may_be)
+            self._previews.drop()
+            self._show_wrong(error)
             return
+        self._previews.ask(self._show_preview, self._show_wrong)
+
+    def _show_late(self) -> None:
+        """What is shown is not of the present values any more, and has been for a while."""
+        for figures in (self._figures, self._print):
+            figures.setEnabled(False)
+
+    def _show_prompt(self) -> None:
+        """What is shown is of the present values."""
+        self._late.stop()
+        for figures in (self._figures, self._print):
+            figures.setEnabled(True)
+        self._pause = SOON if self._asked.elapsed() < PROMPT else SETTLED
+
+    def _take_the_view(self) -> None:
+        """What was shown before makes room, once there is something else."""
+        if self._is_first:
+            self._is_first = False
+            self._obj.ViewObject.Visibility = False
+
+    def _cut_again(self) -> None:
+        """Open a section that there was before the panel, or that was asked for too early."""
+        if self._opens_section:
+            self._opens_section = False
+            open_section(self._obj, self._view)
+
+    def _show_wrong(self, error: VolfrepError) -> None:
+        self._show_prompt()
+        self._shown = None
+        if self._is_first:
+            self._show_solid(True)
+        self._take_the_view()
+        self._view.show_solid_only()
+        self._cut_again()
+        may_be = self._may_be_computed()
+        self._say(str(error), wrong=not may_be)
+        self._print.show_none()
+        self._allow_ok(may_be)
+
+    def _show_preview(self, ready: ReadyPreview) -> None:
+        self._show_prompt()
+        self._take_the_view()
         self._allow_ok(True)
-        self._shown = self._seen = shown
+        shown = self._shown = self._seen = ready.shown
         self._tell_radius(shown.preview.spec.strut_radius)
         if self._preview.isChecked():
             self._show_solid(False)
-            self._view.show(shown, self._grid.isChecked())
+            ready.show_in(self._view, self._grid.isChecked())
         else:
             self._view.clear()
             self._show_solid(not self._obj.ViewObject.Visibility)
+        self._cut_again()
         self._say(self._refusal or shown.text, wrong=bool(self._refusal))
         self._print.tell(self._obj, shown)
 
@@ -252,8 +289,10 @@ class TaskPanel:
 
     def _tell_print(self) -> None:
         """Once a mesh has come: what was foretold is measured now."""
-        with suppress(VolfrepError):  # of values that were changed meanwhile
-            self._print.tell(self._obj, self._live.show())
+        self._previews.ask(
+            lambda ready: self._print.tell(self._obj, ready.shown),
+            lambda _: None,  # of values that were changed meanwhile
+        )
 
     def _refuse(self, name: str, text: str) -> None:
         """Say why something that was typed or chosen is not taken, until a value changes.
@@ -381,7 +420,9 @@ class TaskPanel:
         return box
 
     def _toggle_section(self) -> None:
-        if not close_section(self._obj):
+        if self._is_first:
+            self._opens_section = not self._opens_section
+        elif not close_section(self._obj):
             open_section(self._obj, self._view)
 
     def _picked(self, name: str) -> None:
@@ -488,9 +529,15 @@ class TaskPanel:
         self._figures.say("" if is_marked else text, wrong)
         keep_height(self._figures, FIGURES)
 
+    def _wait_no_more(self) -> None:
+        """Show no preview that is still to come."""
+        self._timer.stop()
+        self._previews.drop()
+        self._show_prompt()
+
     def _close(self) -> None:
         self._is_open = False
-        self._timer.stop()
+        self._wait_no_more()
         self._picking.end()
         close_panel(self._doc)
 

@@ -5,20 +5,19 @@ from __future__ import annotations
 
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.features.infill.live_preview import LivePreview
 from freecad_volfrep.features.study.design_study import (
     apply_design,
+    design_spec,
     designs_asked,
     designs_of_study,
     expected_seconds,
     parameter_of,
     run_study,
-    shown_design,
     unit_of_moduli,
     values_about,
     variable,
@@ -28,6 +27,7 @@ from freecad_volfrep.gui.messages import tell_error
 from freecad_volfrep.gui.panel.property_fields import label_of
 from freecad_volfrep.gui.qt import CLOSE, QtCore, QtGui, QtWidgets
 from freecad_volfrep.gui.undo import undo_step
+from freecad_volfrep.gui.view.preview_thread import PreviewThread
 from freecad_volfrep.gui.view.preview_view import PreviewView
 from freecad_volfrep.gui.widgets.controls import Message, push_button
 from freecad_volfrep.gui.widgets.panel_manners import PanelForm, close_panel, leave_the_wheel
@@ -35,6 +35,9 @@ from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, translate
 from volfrep.util.errors import VolfrepError
 
 from .study_plot import StudyPlot
+
+if TYPE_CHECKING:
+    from freecad_volfrep.gui.view.preview_thread import ReadyPreview
 
 #: Rows of properties that vary.
 ROWS = 3
@@ -88,7 +91,8 @@ class StudyPanel:
     def __init__(self, obj: App.DocumentObject) -> None:
         self._obj, self._doc = obj, obj.Document
         self._picked: dict[str, Any] | None = None
-        self._live, self._view = LivePreview(obj.Infill), None
+        self._previews = PreviewThread(obj.Infill)
+        self._view: PreviewView | None = None
         self._was_visible: dict[Any, bool] = {}
         self.form = self._build()
         self._show_table()
@@ -295,13 +299,19 @@ class StudyPanel:
         self._show_design(row["key"])
 
     def _show_design(self, key: str) -> None:
-        """A design's preview in the place of the infill and its solid."""
+        """Have a design's preview made, for the place of the infill and its solid."""
         try:
-            shown = shown_design(self._obj, key, self._live)
+            spec = design_spec(self._obj, key)
         except VolfrepError as error:
-            self._show_infill()
-            self._text.say(str(error), wrong=True)
+            self._refuse_design(error)
             return
+        self._previews.ask(self._show_preview, self._refuse_design, spec)
+
+    def _refuse_design(self, error: VolfrepError) -> None:
+        self._show_infill()
+        self._text.say(str(error), wrong=True)
+
+    def _show_preview(self, ready: ReadyPreview) -> None:
         infill = self._obj.Infill
         if self._view is None:
             self._view = PreviewView(infill)
@@ -310,10 +320,11 @@ class StudyPanel:
             }
             for part in self._was_visible:
                 part.ViewObject.Visibility = False
-        self._view.show(shown, with_grid=False)
+        ready.show_in(self._view)
 
     def _show_infill(self) -> None:
         """What was shown before a design was."""
+        self._previews.drop()
         if self._view is None:
             return
         self._view.remove()

@@ -3,17 +3,21 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
-from freecad_volfrep.features.infill.live_preview import LivePreview
 from freecad_volfrep.features.infill.properties import INPUTS
-from freecad_volfrep.gui.messages import tell_error
+from freecad_volfrep.gui.messages import tell, tell_error
 from freecad_volfrep.gui.qt import QtCore
+from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
 
+from .preview_thread import PreviewThread
 from .preview_view import PreviewView
+
+if TYPE_CHECKING:
+    from .preview_thread import ReadyPreview
 
 #: The preview waits until no value has changed for so long, ms.
 SETTLED = 200
@@ -23,12 +27,10 @@ _observer: _Observer | None = None
 
 
 def toggle_preview(obj: App.DocumentObject) -> bool:
-    """Show the preview of an infill, or take it away; returns whether it is shown now.
+    """Show the preview of an infill, or take it away; returns whether one is on its way now.
 
-    While it is shown it follows the values; a new mesh ends it.
-
-    Raises:
-        VolfrepError: the infill's values make no sense, or do not fit the solid; nothing is shown.
+    While it is shown it follows the values; a new mesh ends it. Where values make no sense, or do
+    not fit the solid, that is told and nothing is shown.
     """
     global _observer
     if end_preview(obj):
@@ -59,18 +61,14 @@ class _Preview:
 
     def __init__(self, obj: App.DocumentObject) -> None:
         self.obj = obj
-        self._live = LivePreview(obj)
-        shown = self._live.show()
+        self._previews = PreviewThread(obj)
         self._view = PreviewView(obj)
-        self._view.show(shown, with_grid=False)
         self._doc = obj.Document
-        self._was_visible = {part.Name: part.Visibility for part in (obj, obj.Base)}
-        for part in (obj, obj.Base):
-            part.Visibility = False
+        self._was_visible: dict[str, bool] = {}
         self._timer = QtCore.QTimer()
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._refresh)
-        self._say(shown.text)
+        self._timer.start(0)
 
     def changed(self) -> None:
         """Show the new values once no other has changed for a moment."""
@@ -87,20 +85,33 @@ class _Preview:
     def forget(self) -> None:
         """Take the struts away; the document may be gone."""
         self._timer.stop()
+        self._previews.drop()
         self._view.remove()
 
     def _refresh(self) -> None:
-        try:
-            shown = self._live.show()
-        except VolfrepError as error:
-            self._view.show_solid_only()
-            tell_error(str(error))
-            return
-        self._view.show(shown, with_grid=False)
-        self._say(shown.text)
+        self._previews.ask(self._show, self._refuse)
 
-    def _say(self, text: str) -> None:
-        App.Console.PrintMessage(f"VOLFREP, {self.obj.Label}, preview only:\n{text}\n")
+    def _show(self, ready: ReadyPreview) -> None:
+        """In the place of the infill and its solid."""
+        is_first = not self._was_visible
+        if is_first:
+            parts = [part for part in (self.obj, self.obj.Base) if part is not None]
+            self._was_visible = {part.Name: part.Visibility for part in parts}
+            for part in parts:
+                part.Visibility = False
+        ready.show_in(self._view)
+        App.Console.PrintMessage(f"VOLFREP, {self.obj.Label}, preview only:\n{ready.shown.text}\n")
+        if is_first:
+            said = translate(
+                "VolfrepCommands", "{label}: preview shown, figures in the report view"
+            )
+            tell(said.format(label=self.obj.Label))
+
+    def _refuse(self, error: VolfrepError) -> None:
+        tell_error(str(error))
+        self._view.show_solid_only()
+        if not self._was_visible:
+            end_preview(self.obj)
 
 
 class _Observer:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
@@ -14,13 +15,14 @@ from freecad_volfrep.features.sizing.sized_states import limit_names
 from freecad_volfrep.gui.draw import drawing
 from freecad_volfrep.gui.draw.coloured_struts import coloured_struts, colours_of, row_colours
 from freecad_volfrep.gui.draw.legend import Legend
-from freecad_volfrep.gui.draw.prisms import CREASE_ANGLE, prisms
+from freecad_volfrep.gui.in_steps import do_in_steps, drop_steps
 from volfrep.util.errors import VolfrepError
 
 if TYPE_CHECKING:
     from freecad_volfrep.features.infill.live_preview import Shown
+    from freecad_volfrep.gui.draw.drawn_preview import DrawnSolid
     from volfrep.jobs.preview import Preview
-    from volfrep.mesh.triangle_mesh import TriangleMesh
+    from volfrep.mesh.display_parts import Pieces
 
 #: Name of what is added to the view's scene.
 NODE = "VolfrepPreview"
@@ -52,27 +54,54 @@ class PreviewView:
         for part in (turn, drawing.unpickable(), self._struts, self._grid, self._solid):
             self._root.addChild(part)
         self._shown_solid: Any = None
+        self._drawn_solid: Any = None  # the same once it is in the scene
         self._drawn: Any = None
+        self._steps: Iterator[None] | None = None
         self._scene = Gui.activeDocument().activeView().getSceneGraph()
         self._scene.addChild(self._root)
 
-    def show(self, shown: Shown, with_grid: bool) -> None:
-        """Draw a preview in the place of the last one."""
-        self._struts.removeAllChildren()
+    def show(self, shown: Shown, struts: Pieces | None, solid: DrawnSolid, with_grid: bool) -> None:
+        """Draw a preview in the place of the last one, which stays until all of it is there.
+
+        Args:
+            shown: the preview.
+            struts: what its struts or walls are drawn with, see `draw_struts`.
+            solid: what its solid is drawn with.
+            with_grid: whether cells are drawn, too.
+        """
+        drop_steps(self._steps)
+        self._shown_solid = shown.solid
         self._grid.removeAllChildren()
         self._legend.remove()
-        self._drawn = self._coloured(shown) or Struts(self._struts, shown.preview)
-        self._drawn.set_look(self._view, self._plane is not None)
         if with_grid:
             look = drawing.material(GRID)
             lines = drawing.lines(*shown.preview.grid_lines, LINE_WIDTH)
             self._grid.addChild(drawing.separate(look, lines))
-        if self._shown_solid is not shown.solid:
-            self._solid.removeAllChildren()
-            skin = drawing.SeeThrough(drawing.edges(shown.solid), drawing.faces(shown.solid))
+        drawn = self._coloured(shown) or Struts(shown.preview, struts)
+        self._steps = self._draw(shown, drawn, solid)
+        do_in_steps(self._steps)
+
+    def _draw(
+        self, shown: Shown, drawn: ColouredStruts | Struts, solid: DrawnSolid
+    ) -> Iterator[None]:
+        """Bring solid and struts into the scene, a piece at each step."""
+        from pivy import coin
+
+        if self._drawn_solid is not shown.solid:
+            shape = coin.SoGroup()
+            for arrays in solid.pieces:
+                shape.addChild(drawing.piece(*arrays))
+                yield
+            skin = drawing.SeeThrough(drawing.edge_lines(solid.edges), shape)
             paint_solid(skin, self._view)
+            self._solid.removeAllChildren()
             self._solid.addChild(skin.node)
-            self._shown_solid = shown.solid
+            self._drawn_solid = shown.solid
+        yield from drawn.add_pieces()
+        self._drawn = drawn
+        drawn.set_look(self._view, self._plane is not None)
+        self._struts.removeAllChildren()
+        self._struts.addChild(drawn.node)
 
     def _coloured(self, shown: Shown) -> ColouredStruts | None:
         """The struts in the colours of what the view is coloured by, if that is known of them."""
@@ -93,7 +122,7 @@ class PreviewView:
         self._legend.show(self._obj, quantity, low, high, names)
         flat = values.ravel()
         colours = row_colours(flat) if names else colours_of(flat, low, high)
-        return ColouredStruts(self._struts, shown.preview, colours.reshape(-1, 2, 3))
+        return ColouredStruts(shown.preview, colours.reshape(-1, 2, 3))
 
     @property
     def bounds(self) -> np.ndarray:
@@ -102,6 +131,7 @@ class PreviewView:
 
     def show_solid_only(self) -> None:
         """Leave the solid that was drawn last: its values have no struts to show."""
+        drop_steps(self._steps)
         self._legend.remove()
         self._struts.removeAllChildren()
         self._grid.removeAllChildren()
@@ -118,45 +148,48 @@ class PreviewView:
 
     def clear(self) -> None:
         """Draw nothing."""
+        drop_steps(self._steps)
         self._legend.remove()
         for part in (self._struts, self._grid, self._solid):
             part.removeAllChildren()
-        self._shown_solid = None
+        self._shown_solid = self._drawn_solid = None
 
     def remove(self) -> None:
         """Leave nothing in the view."""
+        drop_steps(self._steps)
         self._legend.remove()
         self._scene.removeChild(self._root)
 
 
 class Struts:
-    """Struts in a node of the scene, as a lattice's view has them.
-
-    They are prisms as long as there are not more than the preference allows, else lines.
+    """Struts as a lattice's view has them: prisms, or lines where there are very many; or walls.
 
     Args:
-        node: an empty node of the scene.
         shown: the struts, or the walls.
+        pieces: their faces; None for lines.
+
+    Attributes:
+        node: a separator, empty of faces until `add_pieces` has ended.
     """
 
-    def __init__(self, node: Any, shown: Preview) -> None:
-        self._look, self._inside = drawing.material((0.0, 0.0, 0.0)), None
-        if shown.surface is not None:
-            self._draw_faces(node, shown.surface)
-            return
-        if len(shown.start) > preferences.read(preferences.MOST_PRISMS):
-            lines = drawing.lines(shown.start, shown.end, LINE_WIDTH)
-            node.addChild(drawing.separate(self._look, lines))
-            return
-        if len(shown.start):
-            self._draw_faces(node, prisms(shown.start, shown.end, shown.radii))
+    def __init__(self, shown: Preview, pieces: Pieces | None) -> None:
+        from pivy import coin
 
-    def _draw_faces(self, node: Any, mesh: TriangleMesh) -> None:
-        shape = drawing.faces(mesh, CREASE_ANGLE)
-        self._inside = drawing.Inside(shape)
-        front = drawing.seen_from(outside=True)
-        node.addChild(self._inside.node)
-        node.addChild(drawing.separate(front, self._look, shape))
+        self._look, self._inside = drawing.material((0.0, 0.0, 0.0)), None
+        self._pieces, self._shape = pieces, coin.SoGroup()
+        if pieces is None:
+            lines = drawing.lines(shown.start, shown.end, LINE_WIDTH)
+            self.node = drawing.separate(self._look, lines)
+            return
+        self._inside = drawing.Inside(self._shape)
+        front = drawing.separate(drawing.seen_from(outside=True), self._look, self._shape)
+        self.node = drawing.separate(self._inside.node, front)
+
+    def add_pieces(self) -> Iterator[None]:
+        """Draw the faces, a piece at each step."""
+        for arrays in self._pieces or ():
+            self._shape.addChild(drawing.piece(*arrays))
+            yield
 
     def set_look(self, view: Any, is_cut: bool) -> None:
         """Colours of the object's view."""
@@ -170,14 +203,17 @@ class ColouredStruts:
     """The same in colours.
 
     Args:
-        node: an empty node of the scene.
         shown: the struts.
         colours: (k, 2, 3) at their ends.
     """
 
-    def __init__(self, node: Any, shown: Preview, colours: np.ndarray) -> None:
+    def __init__(self, shown: Preview, colours: np.ndarray) -> None:
         most = preferences.read(preferences.MOST_PRISMS)
-        node.addChild(coloured_struts(shown.start, shown.end, shown.radii, colours, most))
+        self.node = coloured_struts(shown.start, shown.end, shown.radii, colours, most)
+
+    def add_pieces(self) -> Iterator[None]:
+        """It is there at once."""
+        return iter(())
 
     def set_look(self, view: Any, is_cut: bool) -> None:
         """Colours say something: a section leaves them."""

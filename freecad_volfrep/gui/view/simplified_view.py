@@ -5,7 +5,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from freecad_volfrep import preferences
 from freecad_volfrep.gui.draw import drawing
+from freecad_volfrep.gui.draw.drawn_preview import draw_struts
 
 from .preview_view import Struts, paint_solid
 
@@ -32,9 +34,11 @@ class SimplifiedPart:
         shown = LivePreview(obj).show()
         self._struts = None
         if obj.Output != "Domain":
-            struts = drawing.separate()
-            self._struts = Struts(struts, shown.preview)
-            node.addChild(struts)
+            most = preferences.read(preferences.MOST_PRISMS)
+            self._struts = Struts(shown.preview, draw_struts(shown.preview, most))
+            for _ in self._struts.add_pieces():
+                pass
+            node.addChild(self._struts.node)
         self._skin = drawing.SeeThrough(drawing.edges(shown.solid), drawing.faces(shown.solid))
         node.addChild(self._skin.node)
 

@@ -19,7 +19,8 @@ from volfrep.jobs.pipeline import fill
 from volfrep.jobs.preview import PartDepth, preview
 from volfrep.jobs.targets import fill_with_target, solve_block_target, solve_target
 from volfrep.mesh.quality import inspect
-from volfrep.util.errors import VolfrepError
+from volfrep.util.errors import Cancelled, VolfrepError
+from volfrep.util.progress import Monitor
 
 BOX = check_solid(samples.box((24.0, 18.0, 16.0), (-12.0, -9.0, -8.0)), "box")
 DEPTH = PartDepth(BOX)
@@ -106,3 +107,24 @@ def test_targets_that_a_network_cannot_meet_are_refused() -> None:
     squat = LatticeSpec(flat, target=Target("mass", 3.0))
     with pytest.raises(VolfrepError, match="takes no target of mass"):
         solve_block_target(squat, (2, 2, 2))
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"cell": "BCC", "strut_radius": 0.8},
+        {"cell": "Gyroid", "wall": TpmsSheet("sheet", 1.0)},
+        {"network": BONE, "strut_radius": 0.5},
+    ],
+    ids=["cells", "walls", "network"],
+)
+def test_a_preview_ends_where_it_is_told_to_and_can_be_made_afterwards(
+    more: dict[str, object],
+) -> None:
+    spec = LatticeSpec(**({"cell_size": 8.0, "shell": 1.0} | more))  # type: ignore[arg-type]
+    depth = PartDepth(BOX)
+    depth.monitor = Monitor(lambda *_: False)
+    with pytest.raises(Cancelled):
+        preview(BOX, spec, depth)
+    depth.monitor = Monitor()
+    assert preview(BOX, spec, depth).mass == preview(BOX, spec, DEPTH).mass

@@ -86,7 +86,8 @@ class GraphKind(LatticeKind):
         """The struts; random ones lie between the very points of the part."""
         from ..preview import place_lattice, show_struts
 
-        spec, placement = self.spec, place_lattice(solid, self.spec)
+        spec = self.spec
+        placement = place_lattice(solid, spec, depth.monitor)
 
         def domain_of() -> TriangleMesh:
             return depth.domain(spec.skin)
@@ -97,9 +98,10 @@ class GraphKind(LatticeKind):
             wanted = spec.target.lattice_volume(spec.density, domain, skin)
             weights = np.full(len(points), domain / max(len(points), 1))
             spec = with_radius(
-                spec, placement, domain_of, lambda _: (points, weights), wanted, skin, Monitor()
-            )
-        frame = graph_struts(spec, placement, domain_of, Monitor())
+                spec, placement, domain_of, lambda _: (points, weights), wanted, skin,
+                depth.monitor,
+            )  # fmt: skip
+        frame = graph_struts(spec, placement, domain_of, depth.monitor)
 
         def volume(bare: float, domain: float, skin: float) -> tuple[LatticeSpec, float]:
             return spec, graph_volume(frame, spec, depth.points_below(spec.shell), domain)

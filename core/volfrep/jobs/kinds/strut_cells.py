@@ -85,7 +85,7 @@ class StrutCellKind(LatticeKind):
         from ..rough_radius import lattice_volume, radius_of_target
 
         spec, cell = self.spec, self.spec.unit_cell()
-        placement = place_lattice(solid, spec)
+        placement = place_lattice(solid, spec, depth.monitor)
         least = least_width(cell, spec.cell_size, spec.struts)
         cells = show_cells(solid, spec, depth, placement, least)
         count = int(cells.active.sum())

@@ -98,7 +98,8 @@ class TpmsKind(LatticeKind):
         from ..preview import place_lattice, show_cells
         from ..tpms.preview import preview_tpms
 
-        spec, placement = self.spec, place_lattice(solid, self.spec)
+        spec = self.spec
+        placement = place_lattice(solid, spec, depth.monitor)
         cells = show_cells(solid, spec, depth, placement, LEAST_WIDTH_STRETCHED)
         return preview_tpms(solid, spec, depth, placement, cells)
 

@@ -28,6 +28,7 @@ from .in_steps import do_in_steps, drop_steps
 from .jobs.stale_bar import refresh_bar
 from .printing.slicer_view import SlicerInfillView as SlicerInfillView  # saved by this name
 from .qt import QtCore, QtGui
+from .shown_status import show_status
 from .study.study_panel import open_study
 from .undo import complete_steps
 from .view.filled_view import COARSE, FILLED, FilledPart, show_filled, show_proxy
@@ -82,6 +83,7 @@ class LatticeInfillView:
             view.addProperty("App::PropertyColor", "LatticeColor", "Object Style", LATTICE_COLOUR)
             view.LatticeColor = preferences.colour(preferences.STRUT_COLOUR)
         self._colouring = Colouring(self.object)
+        show_status(self.object)
         add_properties(view)
         self._modes = {mode: (coin.SoSeparator(), show) for mode, show in _MODES.items()}
         for mode, (node, _) in self._modes.items():
@@ -128,6 +130,7 @@ class LatticeInfillView:
             self._redone.add(name)
         if name == "Status":
             self._show_state()
+            show_status(obj)
         if name != "Mesh":
             return
         if not obj.Mesh.CountFacets and not obj.Document.Restoring:
@@ -348,6 +351,12 @@ class DesignStudyView(SavesNothing):
     def attach(self, view: Any) -> None:
         """Called by FreeCAD for a new object and for one from a file."""
         self.object = view.Object
+        show_status(view.Object)
+
+    def updateData(self, obj: Any, name: str) -> None:  # noqa: N802
+        """A new state is shown."""
+        if name == "Status":
+            show_status(obj)
 
     def getIcon(self) -> str:  # noqa: N802
         """Path of the tree's icon."""

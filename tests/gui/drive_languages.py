@@ -14,10 +14,13 @@ from freecad_volfrep.gui.widgets.plot_colours import plot_colours
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import new_infill
 from driving import (
+    OUT,
     answer_panel,
     check,
     click,
     comes_true,
+    costly,
+    infills,
     lightness,
     panel,
     panel_part,
@@ -27,6 +30,7 @@ from driving import (
     said,
     select,
     settle,
+    show_model,
     slow,
     told,
     turn_to,
@@ -395,4 +399,51 @@ def english():
     in_language("English")
 
 
-run_checks("languages", {italian: boxed, german: boxed, english: boxed, go_dark: boxed})
+@costly
+def see_the_status():
+    """The property editor says the status in the user's language; scripts and files keep theirs."""
+    file = OUT / "status.FCStd"
+    try:
+        Gui.setLocale("German")
+        doc, _, obj = new_infill.filled()
+        select(obj)
+        show_model()
+        seen = wait_until(lambda: getattr(obj, "StatusShown", "") == "Aktuell")
+        check("it is shown in German", seen, obj.PropertiesList)
+        check("in its own group", obj.getGroupOfProperty("StatusShown") == "5 Result")
+        check("and kept in English", obj.Status == "Up to date", obj.Status)
+        check("nothing is to be recomputed for it", "Up-to-date" in obj.State, obj.State)
+        picture("language_German_status")
+        obj.StrutRadius = 1.2
+        doc.recompute()
+        settle()
+        check("it follows", wait_until(lambda: obj.StatusShown == "Aktuell"), obj.StatusShown)
+        doc.saveAs(str(file))
+        settle()
+        App.closeDocument(doc.Name)
+        doc = App.openDocument(str(file))
+        settle()
+        obj = infills(doc)[0]
+        again = wait_until(lambda: getattr(obj, "StatusShown", "") == "Aktuell")
+        check("it is there again", again, obj.PropertiesList)
+        check("and nothing to be saved for it", not Gui.getDocument(doc.Name).Modified)
+        App.closeDocument(doc.Name)
+    finally:
+        Gui.setLocale("English")
+    doc = App.openDocument(str(file))
+    settle()
+    obj = infills(doc)[0]
+    check("English is English", "StatusShown" not in obj.PropertiesList, obj.PropertiesList)
+    check("where nothing is to be saved", not Gui.getDocument(doc.Name).Modified)
+
+
+run_checks(
+    "languages",
+    {
+        see_the_status: None,
+        italian: boxed,
+        german: boxed,
+        english: boxed,
+        go_dark: boxed,
+    },
+)

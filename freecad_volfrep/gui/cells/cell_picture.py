@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,7 +32,7 @@ def cell_icon(cell: UnitCell | None, size: int = 72) -> QtGui.QIcon:
     painter.setRenderHint(QtGui.QPainter.Antialiasing)
     painter.translate(size / 2, size / 2)
 
-    def line(a: np.ndarray, b: np.ndarray) -> None:
+    def line(a: Sequence[float], b: Sequence[float]) -> None:
         painter.drawLine(
             QtCore.QPointF(a[0] * scale, -a[1] * scale), QtCore.QPointF(b[0] * scale, -b[1] * scale)
         )
@@ -42,13 +43,14 @@ def cell_icon(cell: UnitCell | None, size: int = 72) -> QtGui.QIcon:
     if cell is not None:
         nodes = (cell.nodes - 0.5) @ _VIEW.T
         depth = nodes[cell.struts, 2].mean(axis=1)
-        for strut in cell.struts[np.argsort(depth)]:
-            near = float(np.clip(nodes[strut, 2].mean() + 0.5, 0.0, 1.0))
+        order = np.argsort(depth)
+        nearness = np.clip(depth[order] + 0.5, 0.0, 1.0).tolist()
+        for near, ends in zip(nearness, nodes[cell.struts[order]].tolist(), strict=True):
             pen = QtGui.QPen(QtGui.QColor.fromHsv(210, 200, int(230 - 110 * near)))
             pen.setWidthF(size / 72.0 * (2.0 + 2.5 * near))
             pen.setCapStyle(QtCore.Qt.RoundCap)
             painter.setPen(pen)
-            line(nodes[strut[0]], nodes[strut[1]])
+            line(*ends)
     painter.end()
     return QtGui.QIcon(pixmap)
 

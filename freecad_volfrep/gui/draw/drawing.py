@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,9 @@ from numpy.typing import NDArray
 from volfrep.mesh.display_parts import in_pieces
 from volfrep.mesh.shading import CREASE_ANGLE, shade, sharp_edges
 from volfrep.mesh.triangle_mesh import TriangleMesh
+
+if TYPE_CHECKING:
+    from volfrep.mesh.display_parts import Pieces
 
 #: How shiny what we draw is.
 SPECULAR, SHININESS = (0.10, 0.10, 0.10), 0.3
@@ -47,6 +51,17 @@ def piece(
     # Coin takes a list in a fifth of the time that it takes an array in.
     triangles.coordIndex.setValues(0, index.size, index.ravel().tolist())
     return separate(coordinates, directions, binding, triangles)
+
+
+#: What `kept_pieces` has made.
+_kept: WeakKeyDictionary[Pieces, list[Any]] = WeakKeyDictionary()
+
+
+def kept_pieces(pieces: Pieces) -> list[Any]:
+    """The `piece` of each, made once for all places in the scene; they take no colours."""
+    if pieces not in _kept:
+        _kept[pieces] = [piece(*arrays) for arrays in pieces]
+    return _kept[pieces]
 
 
 def colour_piece(node: Any, colours: NDArray[np.float32] | None) -> None:

@@ -11,6 +11,7 @@ import FreeCADGui as Gui
 from freecad_volfrep import ICONS
 from freecad_volfrep.gui.draw import drawing
 from freecad_volfrep.gui.qt import QtCore
+from freecad_volfrep.gui.shown_status import show_status
 from freecad_volfrep.saved_names import SavesNothing, saved_module
 
 from .band_colours import colours_of
@@ -42,6 +43,7 @@ class SlicerInfillView(SavesNothing):
         self._node = coin.SoSeparator()
         view.addDisplayMode(self._node, BANDS)
         self._draw_soon()
+        show_status(view.Object)
 
     def getDisplayModes(self, view: Any) -> list[str]:  # noqa: N802
         """The mode beside those of every mesh."""
@@ -59,6 +61,8 @@ class SlicerInfillView(SavesNothing):
         """Draw anew what has changed, once all of it has."""
         if name in ("Mesh", "Facets"):
             self._draw_soon()
+        if name == "Status":
+            show_status(obj)
 
     def getIcon(self) -> str:  # noqa: N802
         """Path of the tree's icon."""

@@ -73,8 +73,12 @@ class FilledPart:
             self._skin = drawing.SeeThrough(lines, shapes[OUTSIDE])
             node.addChild(self._skin.node)
         for kind, part in self._parts.items():
-            for arrays in part.first or (() if is_proxy else part.pieces):
-                shapes[kind].addChild(drawing.piece(*arrays))
+            if part.first is not None:
+                for drawn in drawing.kept_pieces(part.first):
+                    shapes[kind].addChild(drawn)
+            elif not is_proxy:
+                for arrays in part.pieces:
+                    shapes[kind].addChild(drawing.piece(*arrays))
 
     def shapes(self, kinds: Sequence[int]) -> list[Any]:
         """The groups that draw the triangles of these kinds."""

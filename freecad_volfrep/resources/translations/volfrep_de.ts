@@ -1077,6 +1077,10 @@
       <translation>Status</translation>
     </message>
     <message>
+      <source>Status Shown</source>
+      <translation>Zustand</translation>
+    </message>
+    <message>
       <source>Stiffness</source>
       <translation>Steifigkeit</translation>
     </message>
@@ -1211,6 +1215,10 @@
     <message>
       <source>The solid to fill: a solid, a Body, a Part, a link to one of these, or a closed mesh</source>
       <translation>Der zu füllende Volumenkörper: ein Volumenkörper, ein Body, ein Part, eine Verknüpfung darauf oder ein geschlossenes Netz</translation>
+    </message>
+    <message>
+      <source>The status in your language; not saved</source>
+      <translation>Der Status in Ihrer Sprache; nicht gespeichert</translation>
     </message>
     <message>
       <source>The surface of the cell Formula: zero on it, of x, y and z, which run from 0 to 2 pi over a cell</source>

@@ -1077,6 +1077,10 @@
       <translation>Stato</translation>
     </message>
     <message>
+      <source>Status Shown</source>
+      <translation>Condizione</translation>
+    </message>
+    <message>
       <source>Stiffness</source>
       <translation>Rigidezza</translation>
     </message>
@@ -1211,6 +1215,10 @@
     <message>
       <source>The solid to fill: a solid, a Body, a Part, a link to one of these, or a closed mesh</source>
       <translation>Il solido da riempire: un solido, un Body, una Part, un link a uno di questi o una mesh chiusa</translation>
+    </message>
+    <message>
+      <source>The status in your language; not saved</source>
+      <translation>Lo stato nella propria lingua; non salvato</translation>
     </message>
     <message>
       <source>The surface of the cell Formula: zero on it, of x, y and z, which run from 0 to 2 pi over a cell</source>

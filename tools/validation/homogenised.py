@@ -14,8 +14,9 @@ from volfrep.continuum.model import solve_continuum
 from volfrep.design.cells import LIBRARY, PAPERS, UnitCell
 from volfrep.design.tpms.sheet import TpmsSheet
 from volfrep.io.solid import Solid, check_solid
-from volfrep.jobs.homogenised import PartBricks, cell_law, homogenise_part
+from volfrep.jobs.homogenised import homogenise_part
 from volfrep.jobs.infill import Infill
+from volfrep.jobs.part_bricks import PartBricks, cell_law
 from volfrep.jobs.pipeline import fill
 from volfrep.jobs.sizing.sizing import solve_struts
 from volfrep.jobs.solving import solve_solid

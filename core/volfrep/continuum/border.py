@@ -33,6 +33,16 @@ class Bars:
     shares: Floats
 
 
+def sharing_steps(one: Floats, two: Floats) -> Floats:
+    """(k, 3) steps to the cells, itself first, that have a strut between (3,) places, too."""
+    inside = (np.abs(one) < _ON) & (np.abs(two) < _ON)
+    beyond = (np.abs(one - 1) < _ON) & (np.abs(two - 1) < _ON)
+    sides = [(0, -1) if low else (0, 1) if high else (0,)
+             for low, high in zip(inside, beyond, strict=True)]  # fmt: skip
+    steps: Floats = np.array(np.meshgrid(*sides, indexing="ij")).reshape(3, -1).T
+    return steps
+
+
 def border_bars(cell: UnitCell, active: Bools) -> Bars:
     """What homogenised cells lack of the struts in their free faces.
 
@@ -44,11 +54,7 @@ def border_bars(cell: UnitCell, active: Bools) -> Bars:
     ends = cell.nodes[cell.struts]  # (m, 2, 3)
     parts: list[Floats] = []
     for one, two in ends:
-        inside = (np.abs(one) < _ON) & (np.abs(two) < _ON)
-        beyond = (np.abs(one - 1) < _ON) & (np.abs(two - 1) < _ON)
-        sides = [(0, -1) if low else (0, 1) if high else (0,)
-                 for low, high in zip(inside, beyond, strict=True)]  # fmt: skip
-        steps = np.array(np.meshgrid(*sides, indexing="ij")).reshape(3, -1).T
+        steps = sharing_steps(one, two)
         if len(steps) == 1:
             continue
         sharers = np.stack(

@@ -38,14 +38,9 @@ from ..util.files import replacing
 from ..util.numbers import number
 from ..util.progress import Monitor, ProgressCallback
 from ..util.types import Floats
-from .homogenised import (
-    HomogenisedPart,
-    PartBricks,
-    cell_law,
-    homogenise_part,
-    refuse_endless,
-)
+from .homogenised import HomogenisedPart, homogenise_part, refuse_endless
 from .infill import Infill
+from .part_bricks import PartBricks, cell_law
 
 #: What a user may want, beside the most stiffness.
 FIELD_GOALS = ("safety", "max_displacement", "thinnest", "thickest")

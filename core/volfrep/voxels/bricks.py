@@ -51,11 +51,11 @@ class CutBricks:
         whole, nodes, modes = [], [], []
         for corner in CORNERS:
             middle = corner - 0.5
-            strain = np.stack([_strain(middle + 0.5 * point, edge) for point in POINTS])
+            strain = np.stack([brick_strains(middle + 0.5 * point, edge) for point in POINTS])
             each = np.einsum("pij,ik,pkl->jl", strain, self._law, strain)
             whole.append(each * self._size / 8.0)
             nodes.append(strain[:, :, :24].sum(axis=0) * self._size / 8.0)
-            modes.append(_strain(middle, edge)[:, 24:])
+            modes.append(brick_strains(middle, edge)[:, 24:])
         self._whole, self._nodes, self._modes = np.stack(whole), np.stack(nodes), np.stack(modes)
 
     def stiffness(self, parts: Floats) -> Floats:
@@ -97,7 +97,7 @@ def brick(young: float, poisson: float, edge: Floats) -> Brick:
         edge: (3,) mm.
     """
     law = solid_stiffness(young, poisson)
-    strain = np.stack([_strain(point, edge) for point in (*POINTS, np.zeros(3))])
+    strain = np.stack([brick_strains(point, edge) for point in (*POINTS, np.zeros(3))])
     weight = float(np.prod(edge)) / 8.0
     whole = np.einsum("pij,ik,pkl->jl", strain[:8], law, strain[:8]) * weight
     modes = -np.linalg.solve(whole[24:, 24:], whole[24:, :24])
@@ -106,7 +106,7 @@ def brick(young: float, poisson: float, edge: Floats) -> Brick:
     return Brick(0.5 * (stiffness + stiffness.T), stress)
 
 
-def _strain(point: Floats, edge: Floats) -> Floats:
+def brick_strains(point: Floats, edge: Floats) -> Floats:
     """(6, 33) strains, Voigt, of nodes and modes at a point of [-1, 1]^3."""
     signs = 2 * CORNERS - 1
     factor = 1.0 + signs * point

@@ -15,15 +15,18 @@ from tools.validation.homogenised import WHOLE, block, compared, end, loaded, mo
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.continuum.bricks import Bricks, Shares, constants
 from volfrep.continuum.cell_law import split, stretched_tensors, turned
+from volfrep.continuum.cut_cells import cut_factors
 from volfrep.design.cells import LIBRARY, PAPERS
 from volfrep.design.grading import Orientation, RadiusGrading, SizeGrading
 from volfrep.design.parameters.spec_file import read_spec
 from volfrep.design.profile import Profile
-from volfrep.jobs.homogenised import cell_law, homogenise_part
+from volfrep.jobs.homogenised import homogenise_part
+from volfrep.jobs.part_bricks import cell_law
 from volfrep.jobs.sizing.sizing import solve_struts
 from volfrep.loads.load_cases import Heat, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane, NearPoint
 from volfrep.mechanics.catalogue import catalogue
+from volfrep.mechanics.elements import solid_stiffness
 from volfrep.mechanics.materials import find_material
 from volfrep.mechanics.tensor import young
 from volfrep.util.linalg import rotation
@@ -50,6 +53,49 @@ def test_bricks_of_any_stiffness_pass_the_patch_test_filled_or_half_filled():
     energy = strain @ stiffness @ strain * edge.prod()
     assert nodes @ matrices[0] @ nodes == pytest.approx(energy, rel=1e-5)
     assert nodes @ matrices[1] @ nodes == pytest.approx(energy / 2, rel=1e-5)
+
+
+@pytest.mark.parametrize("parts", [4, 2, 1])
+def test_a_wall_in_a_brick_bends_as_a_beam_whatever_lies_beside_it(parts):
+    """Closed form: E I for each length, of a wall one, a half and a quarter of a brick thick."""
+    edge, poisson, curve = np.array([2.0, 1.0, 1.0]), 0.3, 0.01
+    bricks = Bricks(edge)
+    solid = np.zeros((4, 4, 4), np.float32)
+    solid[:, :, :parts] = 1.0
+    shares = Shares(1.0 - solid.reshape(1, -1), solid.reshape(1, -1))
+    nothing = constants(1e-7 * solid_stiffness(1.0, poisson))[None]
+    law = constants(solid_stiffness(1000.0, poisson))
+    corners = np.array([[k >> 2 & 1, k >> 1 & 1, k & 1] for k in range(8)]) * edge
+    thick = parts / 4
+    nodes = np.zeros((8, 3))
+    nodes[:, 0] = curve * (corners[:, 0] - 1.0) * (corners[:, 2] - 0.5 * thick)
+    # Free to turn up at its sides, as a strip is.
+    nodes[:, 1] = -poisson * curve * (corners[:, 1] - 0.5) * (corners[:, 2] - 0.5 * thick)
+    energy = nodes.ravel() @ bricks.matrices(shares, nothing, law)[0] @ nodes.ravel()
+    assert energy == pytest.approx(1000.0 * thick**3 / 12 * curve**2 * 2.0, rel=1e-3)
+
+
+def test_a_wall_takes_the_struts_of_the_face_that_lies_in_it_and_no_more():
+    """FCC has struts in its faces only: xz is sheared by those in the two faces across y."""
+
+    def beyond(depth):
+        return lambda points: (points[:, 1] > depth).astype(float)
+
+    places = np.array([[0, 0, 0], [0, 1, 0]])
+    whole, cut = cut_factors(LIBRARY["FCC"], 0.05, places, beyond(-0.1)), 0.25
+    assert whole == pytest.approx(np.tile(np.eye(6), (2, 1, 1)))
+    found = cut_factors(LIBRARY["FCC"], 0.05, places, beyond(cut))
+    assert np.diag(found[0])[[3, 4, 5]] == pytest.approx([1, 0.5 / (1 - cut), 1], abs=0.01)
+    assert found[1] == pytest.approx(np.eye(6))
+    # BCC's run from corner to corner: all of them are cut as the cell is.
+    assert cut_factors(LIBRARY["CVC"], 0.05, places, beyond(cut))[0] == pytest.approx(np.eye(6))
+
+
+@pytest.mark.costly
+def test_a_skin_that_takes_the_faces_of_cells_has_fewer_struts_within():
+    """All over the cells, its struts would make the part 4 % stiffer than it is."""
+    spec = LatticeSpec("FCC", cell_size=10, strut_radius=0.8, shell=2)
+    assert compared(block(80, 40, 40), spec, loaded(80)) == pytest.approx(1, abs=0.02)
 
 
 def test_turned_and_stretched_cells_are_what_they_were_where_nothing_is_done():
@@ -92,7 +138,7 @@ def test_a_skinned_part_moves_as_beams_and_shells_do():
 @pytest.mark.parametrize("cell", PAPERS)
 def test_skinned_parts_of_six_cells_move_as_beams_and_shells_do(cell):
     spec = LatticeSpec(cell, cell_size=10, strut_radius=0.8, shell=2)
-    assert compared(block(120, 60, 60), spec, loaded(120)) == pytest.approx(1, abs=0.055)
+    assert compared(block(120, 60, 60), spec, loaded(120)) == pytest.approx(1, abs=0.03)
 
 
 @pytest.mark.slow

@@ -7,8 +7,9 @@ from test_continuum import PA12, WHOLE, block, end, moved
 
 from volfrep import LatticeSpec
 from volfrep.continuum.eigen import lumped_mass
-from volfrep.jobs.homogenised import cell_law, homogenise_part
+from volfrep.jobs.homogenised import homogenise_part
 from volfrep.jobs.infill import Infill
+from volfrep.jobs.part_bricks import cell_law
 from volfrep.jobs.sizing.sizing import solve_struts
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Mass, Support
 

@@ -16,8 +16,9 @@ from volfrep.continuum.thickness_field import FieldLimits, FieldProblem, _Search
 from volfrep.design.scattered_field import PointField
 from volfrep.design.tpms.sheet import TpmsSheet
 from volfrep.jobs.figures.sized_density import sized_densities
-from volfrep.jobs.homogenised import PartBricks, cell_law, homogenise_part
+from volfrep.jobs.homogenised import homogenise_part
 from volfrep.jobs.infill import Infill
+from volfrep.jobs.part_bricks import PartBricks, cell_law
 from volfrep.jobs.sized_field import FieldGoal, _grading, field_goal, homogenise_sized
 from volfrep.jobs.sizing.sizing import solve_struts
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support

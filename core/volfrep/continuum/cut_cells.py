@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Cells that a wall cuts: how much of each of their struts is left, beside how much of the cell.
+
+As a homogenised solid a cell has its stiffness all over. Struts lie in places: where a skin takes
+the layer that holds a cell's face, the struts in that face are gone, whatever the layer's share of
+the cell is. So the stiffness of a cut cell follows what its struts, moved as the solid is, would
+have in what is left of them, over what they would have by the cell's share.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ..design.cells import UnitCell
+from ..util.types import Floats, Ints
+from .border import sharing_steps
+from .bricks import AT_ONCE, along_lines
+
+#: Places along each edge of a cell, and along each strut, that are looked at.
+LOOKS = 8
+#: A cell with less left of it is as others are.
+_LEAST = 0.01
+#: Where a strut's half has its middle, in units of its radius.
+_HALF = 4.0 / (3.0 * np.pi)
+
+#: Shares in [0, 1] of what lattice fills about (n, 3) points, in cells from the grid's corner.
+Filled = Callable[[Floats], Floats]
+
+
+def cut_factors(cell: UnitCell, ratio: float, places: Ints, filled: Filled) -> Floats:
+    """What walls make of cells' stiffness.
+
+    Args:
+        cell: the unit cell, a cube.
+        ratio: radius of its struts over L.
+        places: (k, 3) the cells.
+        filled: what the walls have left.
+
+    Returns:
+        (k, 6, 6) symmetric, Voigt: a tensor's root times this times its root is the cut cell's.
+    """
+    result = np.tile(np.eye(6), (len(places), 1, 1))
+    near = np.stack(np.meshgrid(*[(0.01, 0.5, 0.99)] * 3), axis=-1).reshape(-1, 3)
+    seen = _filled_at(places, near, filled)
+    cut = np.flatnonzero((seen < 1.0).any(axis=1) & (seen > 0.0).any(axis=1))
+    axis = (np.arange(LOOKS) + 0.5) / LOOKS
+    points = np.stack(np.meshgrid(axis, axis, axis), axis=-1).reshape(-1, 3)
+    left = np.zeros(len(cut))
+    for rows in np.array_split(np.arange(len(cut)), len(cut) // AT_ONCE + 1):
+        left[rows] = _filled_at(places[cut[rows]], points, filled).mean(axis=1)
+    cut, left = cut[left > _LEAST], left[left > _LEAST]
+    if not len(cut):
+        return result
+    ends = cell.nodes[cell.struts]
+    span = ends[:, 1] - ends[:, 0]
+    length = np.linalg.norm(span, axis=1)
+    # In a face the cell has the half of a strut that lies in it.
+    at = ends[:, :1] + span[:, None] * axis[:, None]
+    shared = [sharing_steps(one, two) for one, two in ends]
+    inwards = np.stack([-steps.sum(axis=0) / max(len(steps) / 2, 1) for steps in shared])
+    at = (at + _HALF * ratio * np.clip(inwards, -1.0, 1.0)[:, None]).reshape(-1, 3)
+    volume = length / [len(steps) for steps in shared]
+    stretched, turned = along_lines(span / length[:, None])
+    bent = 3.0 * (ratio / length) ** 2
+    own = (1.0 - bent)[:, None, None] * stretched[:, :, None] * stretched[:, None]
+    own += bent[:, None, None] * np.einsum("mia,mib->mab", turned, turned)
+    own *= volume[:, None, None]
+    values, vectors = np.linalg.eigh(own.sum(axis=0))
+    root = (vectors / np.sqrt(values)) @ vectors.T
+    held = _filled_at(places[cut], at, filled).reshape(len(cut), len(ends), LOOKS).mean(axis=2)
+    rest = np.einsum("km,mab->kab", held / left[:, None], own)
+    result[cut] = root @ rest @ root
+    return result
+
+
+def _filled_at(places: Ints, points: Floats, filled: Filled) -> Floats:
+    """(k, n) of (n, 3) points in each of (k, 3) cells."""
+    every = (places[:, None] + points).reshape(-1, 3)
+    return filled(every).reshape(len(places), len(points))
+
+
+def cut_tensors(tensors: Floats, factors: Floats) -> Floats:
+    """(k, 6, 6) or (1, 6, 6) tensors of whole cells, those of cells cut by (k, 6, 6) factors."""
+    values, vectors = np.linalg.eigh(tensors)
+    root = (vectors * np.sqrt(np.maximum(values, 0.0))[:, None]) @ vectors.swapaxes(1, 2)
+    result: Floats = root @ factors @ root
+    return result

@@ -19,6 +19,7 @@ from importlib import import_module
 from ..util import memory_limit
 from ..util.errors import VolfrepError
 from ..util.files import keeping_inputs
+from ..util.threads import one_for_matrices
 from . import interrupts
 from .parser import Parser, Version, refuse_old, with_current_options
 
@@ -152,6 +153,8 @@ def run(arguments: Sequence[str]) -> int:
         options = make_parser(asked).parse_args(with_current_options(arguments))
         command: Command = options.command
         memory_limit.keep_within()
+        if asked == "size":
+            one_for_matrices()
         with keeping_inputs():
             return command(options) or 0
     except VolfrepError as error:

@@ -22,13 +22,12 @@ from typing import IO, TypeVar
 
 from ..util.packages import package
 from ..util.progress import POLL_SECONDS
+from ..util.threads import MATRIX_THREADS
 
 T = TypeVar("T")
 
 #: For `subprocess`: a program of the console opens no window of its own on Windows.
 NO_WINDOW: int = getattr(subprocess, "CREATE_NO_WINDOW", 0)
-#: Variables by which linear algebra is told its threads.
-_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 #: A program with a shell of its session that waits for the end of standard input, and then ends
 #: the session. It is no child of the program's, which may wait for its children.
 _SHELL = (
@@ -59,7 +58,7 @@ class Limits:
 
     def environment(self) -> dict[str, str]:
         """Variables that say how many threads to use; none where all may be used."""
-        return dict.fromkeys(_THREADS, str(self.threads)) if self.threads else {}
+        return dict.fromkeys(MATRIX_THREADS, str(self.threads)) if self.threads else {}
 
 
 NO_LIMITS = Limits()

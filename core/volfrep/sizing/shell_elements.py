@@ -121,8 +121,7 @@ class Shells:
         flat, bent = np.zeros((2, count, 18, 18))
         flat[:, _IN_PLANE[:, None], _IN_PLANE] = unit._membrane()
         # A panel's corners hang on those of its triangle.
-        is_at = self.panels.nodes[:, :, None] == self.triangles[of][:, None, :]
-        each = unit._bending().reshape(-1, 3, 3, 3, 3)
+        is_at, each = self._is_at(), unit._bending().reshape(-1, 3, 3, 3, 3)
         whole = np.einsum("bam,baicj,bcn->bminj", is_at, each, is_at, optimize=True)
         summed = np.zeros((count, 9, 9))
         np.add.at(summed, of, whole.reshape(-1, 9, 9))
@@ -138,6 +137,35 @@ class Shells:
             (shared * moves).reshape(-1, 6, 6),
             (shared * turns / 12.0).reshape(-1, 6, 6),
         )
+
+    def stress_blocks(self) -> tuple[Floats, Floats]:
+        """What corners' displacements are as stress, which thickness does not change.
+
+        Returns:
+            Twice (t, 3, 18), of the corners' six in global axes: xx, yy and xy in the triangles'
+            axes, MPa, mean over the thickness; and what bending adds on one side of 1 mm, mean
+            over each triangle, where what is as good as rigid does not bend.
+        """
+        of, plane = self.panels.of, self._plane_stress()
+        curved = self._curvature(np.full(2, 1.0 / 3.0)) @ self._led()
+        share = 0.5 * _area(self.panels.corners) / self.area[of]
+        each = (share[:, None, None] * (plane @ curved)).reshape(-1, 3, 3, 3)
+        summed = np.zeros((len(self.area), 3, 9))
+        whole = np.einsum("bsai,bam->bsmi", each, self._is_at(), optimize=True)
+        np.add.at(summed, of, whole.reshape(-1, 3, 9))
+        bent = np.zeros((len(summed), 3, 18))
+        bent[:, :, _ACROSS] = summed
+        return self._of_global(plane @ self._strains()), self._of_global(bent)
+
+    def _of_global(self, blocks: Floats) -> Floats:
+        """(t, s, 18) of corners' displacements in global axes, of those in the triangles' own."""
+        parts = blocks.reshape(*blocks.shape[:2], 6, 3)
+        return np.asarray(np.einsum("tsgi,tij->tsgj", parts, self.axes).reshape(blocks.shape))
+
+    def _is_at(self) -> Floats:
+        """(b, 3, 3) which corner of its triangle each corner of a panel hangs on, 0 or 1."""
+        at = self.panels.nodes[:, :, None] == self.triangles[self.panels.of][:, None, :]
+        return np.asarray(at, float)
 
     def in_plane(self, displacements: Floats) -> Floats:
         """(t, 3, k) xx, yy and xy in the triangles' axes, MPa, mean over the thickness."""
@@ -209,19 +237,6 @@ class Shells:
                     result[:, place, 2, :, 6 * corner + column] += (
                         0.5 * np.array(slope) - 0.75 * own[:, None] * along
                     )
-        return result
-
-    def bent(self, displacements: Floats) -> Floats:
-        """(t, 3, k) xx, yy and xy that bending adds on one side, MPa, mean over each triangle.
-
-        What of it is as good as rigid does not bend.
-        """
-        of = self.panels.of
-        turned = _in_axes(displacements[self.panels.nodes], self.axes[of])[:, _ACROSS]
-        curved = self._curvature(np.full(2, 1.0 / 3.0)) @ self._led() @ turned
-        share = 0.5 * self.thickness[of] * _area(self.panels.corners) / self.area[of]
-        result = np.zeros((len(self.area), 3, displacements.shape[2]))
-        np.add.at(result, of, share[:, None, None] * (self._plane_stress() @ curved))
         return result
 
     def _plane_stress(self) -> Floats:

@@ -130,7 +130,7 @@ class SkinModel:
             heavy=rows @ units.heavy @ columns, turning=rows @ units.turning @ columns,
         )  # fmt: skip
 
-    def stresses(self, displacements: Floats, shells: Shells | None = None) -> Floats:
+    def stresses(self, displacements: Floats, thickness: Floats | None = None) -> Floats:
         """(t, k) the larger von Mises stress of both sides, MPa, of the nodes' (n, 6, k).
 
         A triangle's own scatters: it has what fits it and those that touch it in its face best, a
@@ -139,21 +139,51 @@ class SkinModel:
 
         Args:
             displacements: mm and radians.
-            shells: of another thickness; None for its own.
+            thickness: (t,) another one, mm; None for the shells' own.
         """
-        shells, moved = shells or self.shells, self.of_middle(displacements)
-        across = shells.axes[:, :2]
-
-        def fitted(own: Floats) -> Floats:
-            xx, yy, xy = own.swapaxes(0, 1)
-            tensor = np.stack([np.stack([xx, xy], axis=1), np.stack([xy, yy], axis=1)], axis=1)
-            whole = np.einsum("tai,tabk,tbj->tijk", across, tensor, across, optimize=True)
-            whole = (self._patches @ whole.reshape(len(own), -1)).reshape(whole.shape)
-            tensor = np.einsum("tai,tijk,tbj->tabk", across, whole, across, optimize=True)
-            return np.stack([tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 0, 1]], axis=1)
-
-        stress = worse_side(fitted(shells.in_plane(moved)), fitted(shells.bent(moved)))
+        flat, curved, fit = self._stress_of
+        thick = self.shells.thickness if thickness is None else thickness
+        moved = displacements.reshape(6 * len(displacements), -1)
+        even, bent = flat @ moved, fit @ (np.repeat(thick, 3)[:, None] * (curved @ moved))
+        shape = (len(thick), 3, moved.shape[1])
+        stress = worse_side(even.reshape(shape), bent.reshape(shape))
         return stress if self.stress_ratio is None else stress * self.stress_ratio[:, None]
+
+    @cached_property
+    def _stress_of(self) -> tuple[csr_matrix, csr_matrix, csr_matrix]:
+        """Stress of the nodes' displacements as matrices, rows xx, yy and xy of each triangle.
+
+        Returns:
+            (3 t, 6 n) in the plane, fitted; (3 t, 6 n) of bending, of 1 mm; and (3 t, 3 t) what
+            fits the latter.
+        """
+        triangles, count = self.shells.triangles, len(self.middle)
+        arms = _arms(self.outside.vertices, self.middle)[triangles]
+        columns = (6 * triangles[:, :, None] + np.arange(6)).reshape(-1, 1, 18)
+        rows = (3 * np.arange(len(triangles))[:, None] + np.arange(3))[:, :, None]
+        rows, columns = (np.broadcast_to(one, (len(triangles), 3, 18)) for one in (rows, columns))
+        found = []
+        for block in self.shells.stress_blocks():
+            led = np.einsum("tsci,tcij->tscj", block.reshape(-1, 3, 3, 6), arms, optimize=True)
+            entries = led.ravel(), (rows.ravel(), columns.ravel())
+            found.append(csr_matrix(entries, (3 * len(triangles), 6 * count)))
+        near = self._patches.tocoo()
+        across = self.shells.axes[:, :2]
+        # How two axes of a triangle lie in those of another one: a tensor turns by it twice.
+        turn = np.einsum("kai,kbi->kab", across[near.row], across[near.col])
+        one, two, both = ((0, 0), (1, 1), (0, 1))
+        blocks = np.empty((len(near.data), 3, 3))
+        for row, (i, j) in enumerate((one, two, both)):
+            blocks[:, row, 0] = turn[:, i, 0] * turn[:, j, 0]
+            blocks[:, row, 1] = turn[:, i, 1] * turn[:, j, 1]
+            blocks[:, row, 2] = turn[:, i, 0] * turn[:, j, 1] + turn[:, i, 1] * turn[:, j, 0]
+        blocks *= near.data[:, None, None]
+        three = np.arange(3)
+        to = np.broadcast_to(3 * near.row[:, None, None] + three[:, None], blocks.shape)
+        of = np.broadcast_to(3 * near.col[:, None, None] + three, blocks.shape)
+        size = 3 * len(triangles)
+        fit = csr_matrix((blocks.ravel(), (to.ravel(), of.ravel())), (size, size))
+        return csr_matrix(fit @ found[0]), found[1], fit
 
     def peaks(self, displacements: Floats) -> list[float]:
         """MPa in each case, on all but a little of the area, of the nodes' (n, 6, k)."""

@@ -176,8 +176,7 @@ class SkinThickness:
 
     def stresses(self, variables: Floats, displacements: Floats) -> Floats:
         """(t, k) the larger von Mises stress of both sides, MPa, of (nodes, 6, k)."""
-        shells = self.skin.shells.of_thickness(self.of_shells(variables))
-        return self.skin.stresses(displacements[self.first :], shells)
+        return self.skin.stresses(displacements[self.first :], self.of_shells(variables))
 
     def work(self, variables: Floats, one: Floats, other: Floats) -> Floats:
         """(t, k) N: one dK other to the thickness of each shell, of displacements (nodes, 6, k)."""

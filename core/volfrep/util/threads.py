@@ -14,6 +14,9 @@ from .errors import VolfrepError
 S = TypeVar("S")
 T = TypeVar("T")
 
+#: Variables by which linear algebra is told its threads.
+MATRIX_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
 _wanted = 0
 
 
@@ -37,6 +40,16 @@ def use_threads(count: int) -> None:
 def threads() -> int:
     """How many threads a parallel loop is to use."""
     return _wanted or _cores()
+
+
+def one_for_matrices() -> None:
+    """Before numpy is loaded: one thread for its linear algebra, where nothing says how many.
+
+    Matrices of a frame's factors are small: more threads wait for each other, and on a busy machine
+    for the processor.
+    """
+    if not any(name in os.environ for name in MATRIX_THREADS):
+        os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 
 def in_threads(work: Callable[[S], T], items: Iterable[S]) -> Generator[T, None, None]:

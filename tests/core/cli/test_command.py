@@ -26,6 +26,7 @@ from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.spatial.rays import inside_points
 from volfrep.util.progress import Monitor
+from volfrep.util.threads import MATRIX_THREADS
 
 COMMAND = [sys.executable, "-m", "volfrep"]
 
@@ -105,6 +106,25 @@ def test_what_a_start_does_not_load(code: str, unused: list[str], tmp_path: Path
         [sys.executable, "-c", ask], capture_output=True, text=True, check=True, cwd=tmp_path
     )
     assert done.stdout.splitlines()[-1] == "[]", done.stdout
+
+
+def test_sizing_has_one_thread_for_matrices_where_nothing_says_how_many(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Before numpy is loaded, which counts them then."""
+    told = []
+    for name in MATRIX_THREADS:
+        monkeypatch.setenv(name, "0")  # so that it is as before in the end
+        monkeypatch.delenv(name)
+    for command, given in (("fill", None), ("size", "3"), ("size", None)):
+        if given is not None:
+            monkeypatch.setenv("OMP_NUM_THREADS", given)
+        more = ["--loads", "none.toml"] if command == "size" else []
+        code = cli.run([command, "no_such_part.stl", "-o", "made.stl", *more])
+        assert code == cli.EXIT_BAD_INPUT
+        told.append(os.environ.get("OPENBLAS_NUM_THREADS"))
+        monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    assert told == [None, None, "1"]
 
 
 def test_cells(capsys: pytest.CaptureFixture[str]) -> None:
@@ -598,6 +618,7 @@ HELD = """
 import pathlib, sys, time
 from volfrep.__main__ import main
 from volfrep.util.progress import Monitor
+from volfrep.util.threads import MATRIX_THREADS
 
 tick = Monitor.tick
 

@@ -21,9 +21,12 @@ from .octant import (
     sample_octants,
 )
 from .octant_spec import OctantSpec
-from .refinement import surface_deviations
+from .refinement import BORDER_ROUNDS, finer_border, surface_deviations
 from .sdf import Anchors, Field, Primitives
+from .surface_fit import fit_border
 
+#: By which places make an entity (see `Octant`).
+ENTITY_WEIGHTS = np.array([9, 3, 1])
 #: Samples of octants that are found together.
 SAMPLES_AT_ONCE = 1 << 20
 #: Pieces are meshed together up to about this many vertices.
@@ -119,30 +122,59 @@ class Batch:
         )
         return Batch(used, raw, solid, whole, 0.5 * spec.cell_size / STEPS, spec.deviation)
 
+    def bordered(self, remeshed: Surface, origin: Ints, farthest: float) -> Meshed:
+        """The surface with its border fitted, and more vertices there where it strays.
+
+        Every octant that shares a face has the same there, however it is meshed inside.
+
+        Args:
+            remeshed: evenly.
+            origin: which of the raw vertices its own were.
+            farthest: edges of the border stray no farther, mm.
+        """
+        order = np.concatenate([piece.order for piece in self.raw])[origin]
+        found = Meshed(fit_border(remeshed), self.surface.vertices[origin], order)
+        for _ in range(BORDER_ROUNDS):
+            finer, parents = finer_border(found.surface, farthest)
+            if finer is found.surface:
+                break
+            found = found.of(finer, parents)
+        return found
+
     def split(self, meshed: Meshed, which: Bools) -> dict[OctantKey, Octant]:
         """The surface cut into the octants again, some of (k,), with how far each strays."""
         meshed = meshed.where(which[meshed.surface.piece])
+        refined = meshed.surface
+        deviations = np.zeros(len(self.raw))
+        if refined.field.fillet == 0.0:  # otherwise values are no distances
+            owner = refined.piece[refined.triangles[:, 0]]
+            np.maximum.at(deviations, owner, surface_deviations(refined, CLOSELY * self.deviation))
+        number = {key: k for k, key in enumerate(self.keys)}
+        return {
+            key: replace(octant, deviation=float(deviations[number[key]]))
+            for key, octant in self.octants(meshed, which)
+        }
+
+    def octants(self, meshed: Meshed, which: Bools) -> Iterator[tuple[OctantKey, Octant]]:
+        """The surface cut into the octants again, some of (k,)."""
         refined, order = meshed.surface, meshed.order
         # Pieces are runs of vertices.
         begin = np.searchsorted(refined.piece, np.arange(len(self.raw) + 1))
         owner = refined.piece[refined.triangles[:, 0]]
         by_piece = np.argsort(owner, kind="stable")
         cuts = np.searchsorted(owner[by_piece], np.arange(len(self.raw) + 1))
-        deviations = np.zeros(len(self.raw))
-        if refined.field.fillet == 0.0:  # otherwise values are no distances
-            np.maximum.at(deviations, owner, surface_deviations(refined, CLOSELY * self.deviation))
-        result = {}
         for k, key in enumerate(self.keys):
             if not which[k]:
                 continue
             part = slice(begin[k], begin[k + 1])
             vertices = np.rint(refined.vertices[part] / self.step) * self.step
             triangles = refined.triangles[by_piece[cuts[k] : cuts[k + 1]]] - begin[k]
-            octant = ranked_octant(
-                vertices, triangles, refined.place[part], order[part], self.solid_corners[k]
+            yield (
+                key,
+                ranked_octant(
+                    vertices, triangles, refined.place[part], order[part], self.solid_corners[k]
+                ),
             )
-            result[key] = replace(octant, deviation=float(deviations[k]))
-        return result
 
 
 def ranked_octant(
@@ -156,7 +188,7 @@ def ranked_octant(
 
     Arguments as the attributes of `Octant` and `RawOctant`.
     """
-    entity = (place.astype(np.int64) * np.array([9, 3, 1])).sum(axis=1)
+    entity = (place.astype(np.int64) * ENTITY_WEIGHTS).sum(axis=1)
     return Octant(
         vertices,
         triangles.astype(np.int32),

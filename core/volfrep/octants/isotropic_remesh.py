@@ -276,7 +276,8 @@ def _snap(surface: Surface, ends: Ints, movable: Bools) -> Surface:
     # Each vertex takes the nearest of the places that its edges propose, corners first; of places
     # that are equally near one that the octant beyond takes, too.
     corner = held_by[:, 2] >= 0
-    steps = np.round(np.column_stack([point[:, ::-1], distance]) / (TIED * surface.edge))
+    point_in_order = _in_order(surface, vertex, vertex, point)
+    steps = np.round(np.column_stack([point_in_order[:, ::-1], distance]) / (TIED * surface.edge))
     order = np.lexsort((*steps.T, ~corner))
     vertex, first = np.unique(vertex[order], return_index=True)
     pick = order[first]
@@ -286,13 +287,29 @@ def _snap(surface: Surface, ends: Ints, movable: Bools) -> Surface:
 
 
 def _first_end(surface: Surface, ends: Ints) -> Ints:
-    """(k,) 0 or 1, the end of edges that comes first along x, y or z, whoever numbers them."""
+    """(k,) 0 or 1, the end of edges that comes first along an axis, whoever numbers them."""
     points = surface.vertices[ends]
-    way = points[:, 1] - points[:, 0]
+    way = _in_order(surface, ends[:, 0], ends[:, 1], points[:, 1] - points[:, 0])
     way[np.abs(way) < TIED * surface.edge] = 0.0
     axis = (way != 0.0).argmax(axis=1)
     result: Ints = (way[np.arange(len(way)), axis] < 0.0).astype(np.int64)
     return result
+
+
+def _in_order(surface: Surface, one: Ints, two: Ints, vectors: Floats) -> Floats:
+    """(k, 3) vectors with the two axes of a face first, the next after the face's own before all.
+
+    So octants are alike, ties and all, whose axes are exchanged in turn.
+
+    Args:
+        surface: whose vertices they belong to.
+        one: (k,) vertices.
+        two: (k,) others that have a face in common with these: where none has, x comes first.
+        vectors: (k, 3).
+    """
+    shared = (surface.place[one] == surface.place[two]) & surface.pinned[one]
+    own = np.where(shared.any(axis=1), shared.argmax(axis=1), 2)
+    return np.take_along_axis(vectors, (own[:, None] + np.array([1, 2, 3])) % 3, axis=1)
 
 
 def _toward(surface: Surface, held: Ints, vertex: Ints, others: Floats) -> Ints:

@@ -24,9 +24,9 @@ from ..util.errors import VolfrepError
 from ..util.linalg import lengths
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
-from . import sdf
 from .batch import Batch, sample_all
 from .constrained_mesh import Meshed, Surface
+from .exchanged_axes import Axes, copies, forms, orders_between, values_at_facets
 from .isotropic_remesh import remesh_evenly
 from .octant import (
     Octant,
@@ -35,16 +35,14 @@ from .octant import (
 )
 from .octant_spec import OctantSpec
 from .refinement import (
-    BORDER_ROUNDS,
     coarser,
-    finer_border,
     flipped_nearer,
     split_where_it_deviates,
     surface_deviations,
     with_vertices,
 )
 from .sdf import Primitives
-from .surface_fit import fit_border, fit_facets, missed_volume
+from .surface_fit import fit_facets, missed_volume
 from .untangle import crossing_facets, untangle
 from .windows import sampled_finely_enough
 
@@ -105,7 +103,7 @@ def mesh_octants(
     """Mesh the octants of the given keys.
 
     Struts that an octant has and another one lacks are often hidden in its joints: octants whose
-    surfaces are the same are meshed once.
+    surfaces are the same, or are so with their axes exchanged, are meshed once.
 
     Raises:
         FacetsCross: there is an octant whose facets run through each other, however it is meshed.
@@ -117,13 +115,23 @@ def mesh_octants(
         for key in dict.fromkeys(keys)
     }
     groups: dict[bytes, list[OctantKey]] = {}
+    firsts: dict[bytes, tuple[OctantKey, list[bytes]]] = {}
+    exchanged: dict[OctantKey, tuple[OctantKey, list[Axes]]] = {}
     for key, samples in sample_all(spec, primitives):
         seen = np.clip(samples, -SEEN_STEPS * spec.step, SEEN_STEPS * spec.step)
-        groups.setdefault(hashlib.blake2b(seen.tobytes()).digest(), []).append(key)
+        group = groups.setdefault(hashlib.blake2b(seen.tobytes()).digest(), [])
+        if not group:
+            own = forms(seen, spec.step)
+            first, its = firsts.setdefault(min(own), (key, own))
+            if first != key:
+                exchanged[key] = first, orders_between(its, own)
+        group.append(key)
         monitor.tick()
     result: dict[OctantKey, Octant] = {}
-    firsts = [group[0] for group in groups.values()]
-    _mesh(spec, {key: primitives[key] for key in firsts}, result, monitor)
+    _mesh(spec, {key: primitives[key] for key, _ in firsts.values()}, result, monitor)
+    result.update(copies(spec, primitives, exchanged, result, DIVIDED_TO * spec.deviation))
+    others = {key: primitives[key] for key in exchanged if key not in result}
+    _mesh(spec, others, result, monitor)
     for group in groups.values():
         octant = result[group[0]]
         result.update(dict.fromkeys(_alike(spec, octant, group, primitives), octant))
@@ -194,17 +202,8 @@ def _meshed(spec: OctantSpec, batch: Batch, monitor: Monitor) -> dict[OctantKey,
 
 
 def _bordered(remeshed: Surface, origin: Ints, batch: Batch, farthest: float) -> Meshed:
-    """The surface fitted, with more vertices where its border strays by more than that, mm.
-
-    Every octant that shares a face has the same there, however it is meshed inside.
-    """
-    order = np.concatenate([piece.order for piece in batch.raw])[origin]
-    found = Meshed(fit_border(remeshed), batch.surface.vertices[origin], order)
-    for _ in range(BORDER_ROUNDS):
-        finer, parents = finer_border(found.surface, farthest)
-        if finer is found.surface:
-            break
-        found = found.of(finer, parents)
+    """The surface fitted, with more vertices where its border strays by more than that, mm."""
+    found = batch.bordered(remeshed, origin, farthest)
     surface = found.surface
     surface = replace(surface, field=surface.field.anchored(surface.vertices))
     return replace(found, surface=fit_facets(surface))
@@ -349,14 +348,8 @@ def _alike(
 
     The samples said so already; a strut that shows between them only is found here.
     """
-    first, *others = group
+    others = group[1:]
     if not len(octant.triangles) or not others:
         return others
-    middles = octant.vertices[octant.triangles].mean(axis=1)
-    points = np.concatenate([octant.vertices, middles])[:, None]
-
-    def values(key: OctantKey) -> Floats:
-        return sdf.union(sdf.distances(points, primitives[key]), spec.fillet)
-
-    wanted = values(first)
-    return [key for key in others if np.array_equal(values(key), wanted)]
+    wanted, *values = (values_at_facets(octant, primitives[key], spec.fillet) for key in group)
+    return [key for key, own in zip(others, values, strict=True) if np.array_equal(own, wanted)]

@@ -59,12 +59,34 @@ def test_octants_of_thirds_of_a_cell_are_shared_as_those_of_halves():
 
 @pytest.mark.costly
 def test_struts_that_show_keep_octants_apart():
-    """With a fillet the hidden struts of a joint show: nothing is shared."""
+    """With a fillet the hidden struts of a joint show: only those with axes exchanged are alike."""
     cell = LIBRARY["FCC"]
     keys = kinds_of(cell, np.ones((2, 2, 2), bool))
     monitor = Monitor()
     mesh_octants(cell, OctantSpec(10.0, 0.8, 0.5, 8), keys, monitor)
-    assert monitor.work["kinds of octants meshed"] == len(keys) == 27
+    assert len(keys) == 27
+    low_high_or_inside_along_three_axes = 10
+    assert monitor.work["kinds of octants meshed"] == low_high_or_inside_along_three_axes
+
+
+@pytest.mark.parametrize("name", ["CVC", "Kagome"])
+def test_octants_that_are_others_with_their_axes_exchanged_are_not_meshed(name):
+    """They have these octants' insides, and the borders that they would have alone."""
+    cell, spec = LIBRARY[name], OctantSpec(10.0, 0.8, 0.0, 15)
+    # At a block's edges along x, y and z, in the frame of a cell that three turns leave alike.
+    keys = [OctantKey(0, pattern) for pattern in (0b11, 0b101, 0b10001)]
+    monitor = Monitor()
+    first, *others = mesh_octants(cell, spec, keys, monitor).values()
+    assert monitor.work["kinds of octants meshed"] == 1
+    for key, octant in zip(keys[1:], others, strict=True):
+        places, its = (np.sort(one.vertices, axis=1) for one in (octant, first))
+        np.testing.assert_allclose(places, its, rtol=0.0, atol=1e-6)
+        corners = octant.vertices[octant.triangles]
+        volume, its = (np.linalg.det(c).sum() for c in (corners, first.vertices[first.triangles]))
+        assert volume == pytest.approx(its, rel=1e-6)
+        alone = mesh_octants(cell, spec, [key], Monitor())[key]
+        for shared, own in zip(border_of(octant), border_of(alone), strict=True):
+            np.testing.assert_array_equal(shared, own)
 
 
 def test_octants_that_share_struts_are_sampled_as_each_alone():

@@ -18,7 +18,7 @@ from volfrep.jobs.homogenised import homogenise_part
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.part_bricks import PartBricks, cell_law
 from volfrep.jobs.pipeline import fill
-from volfrep.jobs.sizing.sizing import solve_struts
+from volfrep.jobs.sizing import solve_struts
 from volfrep.jobs.solving import solve_solid
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane

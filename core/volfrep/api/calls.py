@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from ..design.parameters.typed import Keywords, SizeKeywords
     from ..jobs.coupons import Coupon
     from ..jobs.homogenised import HomogenisedPart
-    from ..jobs.sizing import Printing
+    from ..jobs.sizing import Building, Printing
     from ..jobs.slicer_infill import SlicerInfill
     from ..jobs.slices import Layers
     from ..jobs.solving import Solved
@@ -164,6 +164,7 @@ def size(
     symmetry: str | None = None,
     as_printed: str | None = None,
     scatter: float = 0.0,
+    process: str | None = None,
     solid_places: bool = True,
     unit: str | None = None,
     progress: ProgressCallback | bool | None = None,
@@ -193,6 +194,8 @@ def size(
             None takes struts as drawn. The print goes up along the parameter `build_direction`.
         scatter: stress and buckling are those of struts thinner by so many standard deviations of
             that table.
+        process: FFF, SLA, SLS, MJF, LPBF or EBM: struts are no thinner than it builds and, as far
+            as limits allow, none is flatter, along the parameter `build_direction`.
         solid_places: where limits ask for more than the thickest skin that may be, the part becomes
             solid.
         unit: as of `fill`.
@@ -251,6 +254,7 @@ def size(
             loads.material, asked, remove_thin=remove_thin, radius_list=radius_list,
             symmetry=symmetry, solid_places=solid_places,
             printing=_printing(as_printed, scatter, given.get("build_direction")),
+            building=_building(process, given.get("build_direction")),
         )  # fmt: skip
         if prove == "file":
             check_file_proof(goal)
@@ -280,6 +284,17 @@ def _printing(table: str | None, scatter: float, up: Any) -> Printing | None:
 
     up = BY_NAME["build_direction"].default if up is None else up
     return Printing(find_printed_table(table), up, float(scatter))
+
+
+def _building(process: str | None, up: Any) -> Building | None:
+    """How a sized part is built; None where that does not count."""
+    if process is None:
+        return None
+    from ..jobs.sizing import Building
+    from ..reports.processes import find_process
+
+    up = BY_NAME["build_direction"].default if up is None else up
+    return Building(find_process(process), up)
 
 
 def solve(

@@ -288,9 +288,9 @@ class Part:
         >>> part.check("SLS").thinnest_strut_mm
         2.0
         """
+        from ..grid.inclination import unit_direction
         from ..jobs.figures.print_check import check_print
         from ..jobs.pipeline import fill
-        from ..reports.printability import unit_direction
         from ..reports.processes import find_process
 
         limits = find_process(process)

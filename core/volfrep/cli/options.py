@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from ..design.as_printed import PrintedTable
     from ..design.file_limits import FileLimits
     from ..design.spec import LatticeSpec
-    from ..jobs.sizing import Printing
+    from ..jobs.sizing import Building, Printing
     from ..mechanics.materials import Material, SolidMaterial
     from ..reports.processes import Process
 
@@ -162,6 +162,7 @@ class SizeOptions(LatticeOptions):
         goal: what is wanted, by its names in `jobs.sizing.GOALS`.
         remove_thin: take away the thinnest struts, and size again.
         solid: the part becomes solid where no skin is enough.
+        building: how the part is built; None where it does not count.
         radius_list: the radii that may be, mm; empty for any.
         symmetry: planes of symmetry; None for none.
         printing: how struts come out; None where they are taken as drawn.
@@ -191,6 +192,7 @@ class SizeOptions(LatticeOptions):
     radius_list: tuple[float, ...]
     symmetry: str | None
     printing: Printing | None
+    building: Building | None
     steps: int
     prove: bool
     prove_file: bool
@@ -299,7 +301,7 @@ def size_options(given: argparse.Namespace) -> SizeOptions:
         goal={name: getattr(given, name) for name in GOALS}, remove_thin=given.remove_thin,
         solid=not given.no_solid,
         radius_list=given.radius_list, symmetry=given.symmetry,
-        printing=_printing(given, found),
+        printing=_printing(given, found), building=_building(given, found),
         steps=given.steps, prove=not given.no_proof,
         prove_file=given.prove == "file", voxel=given.voxel, radii=given.radii,
         thickness=given.thickness, limits=_limits(given, form),
@@ -329,7 +331,7 @@ def _mesh_options(given: argparse.Namespace, found: Specified) -> dict[str, Any]
         notes = (note,)
     _check_reports(given, form)
     if process is not None:
-        from ..reports.printability import unit_direction
+        from ..grid.inclination import unit_direction
 
         unit_direction(found.build_direction)
     form.refuse(fields["spec"])
@@ -372,6 +374,16 @@ def _printing(given: argparse.Namespace, found: Specified) -> Printing | None:
 
     table = find_printed_table(given.as_printed)
     return Printing(table, found.build_direction, given.scatter)
+
+
+def _building(given: argparse.Namespace, found: Specified) -> Building | None:
+    """How a design is built."""
+    if given.process is None:
+        return None
+    from ..jobs.sizing import Building
+    from ..reports.processes import find_process
+
+    return Building(find_process(given.process), found.build_direction)
 
 
 def _limits(given: argparse.Namespace, form: Form) -> FileLimits:

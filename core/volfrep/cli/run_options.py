@@ -269,6 +269,12 @@ RUN_OPTIONS = (
         "P", MATERIAL_GROUP,
     ),
     RunOption(
+        "process", ("size",),
+        "FFF, SLA, SLS, MJF, LPBF or EBM: struts as thick and as steep to the build plate as it "
+        "builds them, where limits allow; adds its print report",
+        "P", GOAL_GROUP,
+    ),
+    RunOption(
         "process", ("orient",),
         "FFF, SLA, SLS, MJF, LPBF or EBM: the inclination that needs no support is its", "P",
     ),

@@ -30,6 +30,8 @@ from .telling import print_rows, print_summary, print_warnings
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
     from ..jobs.sizing import Goal, SizedPart
+    from ..output.sources import FilledPart
+    from ..reports.printability import PrintReport
     from ..sizing.optimise import Step
 
 #: What a script is told of a part that does not hold a limit, though it is written.
@@ -67,7 +69,7 @@ def run_size(given: argparse.Namespace) -> int | None:
         loads.material, options.goal, lambda name: f"--{name.replace('_', '-')}",
         remove_thin=options.remove_thin, radius_list=options.radius_list,
         symmetry=options.symmetry, printing=options.printing,
-        solid_places=options.solid,
+        solid_places=options.solid, building=options.building,
     )  # fmt: skip
     if options.prove_file:
         check_file_proof(goal)
@@ -87,6 +89,7 @@ def run_size(given: argparse.Namespace) -> int | None:
             write_radii(made, options.radii)
             _write_specification(options, made)
         streamed = options.form.streamed and not options.prove_file
+        streamed = streamed and options.building is None
 
         def fill(spec: LatticeSpec) -> FilledPart:
             infill = Infill(solid, spec, progress=progress, cache=cache, streamed=streamed)
@@ -95,6 +98,7 @@ def run_size(given: argparse.Namespace) -> int | None:
         part, kept = fill_within(solid, made.spec, options.limits, options.form, fill)
         report = part.result.report
         writer_of(options.form).write(part, options.output, Settings())
+        printing = None if options.building is None else _print_report(part, options)
         if options.prove_file:
             prove_file(
                 made, part.result.mesh, loads, voxel=options.voxel, progress=progress,
@@ -103,7 +107,10 @@ def run_size(given: argparse.Namespace) -> int | None:
     if options.report is not None and is_page(options.report):
         write_sizing_page(made.report, solid, loads, Path(options.part).name, options.report)
     elif options.report is not None:
-        write_json(options.report, {"sizing": made.report, "part": report.as_dict()})
+        figures = {"sizing": made.report, "part": report.as_dict()}
+        if printing is not None:
+            figures["print_report"] = printing.as_dict()
+        write_json(options.report, figures)
     if options.plot is not None:
         from ..reports.sizing_plot import write_sizing_plot
 
@@ -111,10 +118,25 @@ def run_size(given: argparse.Namespace) -> int | None:
     if options.picture is not None:
         _picture(options, made)
     print_warnings([*made.report["notes"], *kept])
-    print_summary(report, options.output, quiet=options.quiet, before=seconds)
+    print_summary(report, options.output, printing, quiet=options.quiet, before=seconds)
     if not options.quiet:
         print_rows(*sizing_rows(made.report), ("time of sizing", f"{seconds:.1f} s of it"))
     return None if made.sized.holds else EXIT_NOT_HELD
+
+
+def _print_report(part: FilledPart, options: SizeOptions) -> PrintReport:
+    """The finished part held against the process that it was sized for."""
+    from ..jobs.as_printed import as_printed
+    from ..jobs.figures.print_check import check_print
+
+    building, struts = options.building, part.result.wireframe
+    assert building is not None
+    if options.printing is not None:
+        struts = as_printed(struts, options.printing.table, building.build_direction).struts
+    return check_print(
+        part.result.mesh, struts, part.cavity, part.spec, building.process,
+        building.build_direction,
+    )  # fmt: skip
 
 
 @contextmanager

@@ -116,6 +116,7 @@ def _removal_rows(report: Report) -> list[tuple[str, str]]:
         (report.struts_dangling_removed, "dangling struts"),
         (report.stubs_removed, "stubs"),
         (report.thin_struts_removed, "thin struts"),
+        (report.flat_struts_removed, "flat struts"),
         (report.pieces_removed, "loose pieces"),
     )
     text = ", ".join(f"{count:,} {what}" for count, what in counts if count)

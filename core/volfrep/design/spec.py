@@ -23,6 +23,7 @@ from .spec_parts import (
     DEFAULT_RELATIVE_DEVIATION,
     MAX_RESOLUTION,
     MIN_RESOLUTION,
+    FlatStruts,
 )
 from .target import Target
 from .tpms import TpmsSheet
@@ -40,6 +41,7 @@ __all__ = [
 #: Fields that hold a part of their own, or None.
 _PARTS = {
     "drains": DrainHoles,
+    "flat_struts": FlatStruts,
     "size_grading": SizeGrading,
     "radius_grading": RadiusGrading,
     "cell_map": CellMap,
@@ -87,6 +89,8 @@ class LatticeSpec(SpecFields):
             none, mm.
         remove_below: struts that are nowhere thicker than this radius are taken away; 0 for
             none, mm.
+        flat_struts: struts that lie too flat to be built are taken away, and those with a free end
+            then (`volfrep.design.spec_parts`); None for none.
         keep_pieces: keep pieces of the lattice that hang on nothing.
         output: ``part`` (skin and lattice), ``lattice`` (trimmed) or ``domain`` (what it fills).
         fillet: radius of the round between struts at a joint; 0 for none.
@@ -158,6 +162,12 @@ class LatticeSpec(SpecFields):
             raise VolfrepError(
                 "Open faces, drain holes, faces with a skin of their own, and what is kept solid, "
                 "need a skin that they belong to: give a skin thickness above 0."
+            )
+        flat, drains = self.flat_struts, self.drains
+        if flat and drains and flat.build_direction != drains.build_direction:
+            raise VolfrepError(
+                f"Flat struts go by a build direction of {flat.build_direction}, and drain holes "
+                f"by {drains.build_direction}: a part has one."
             )
         if self.drains is not None and self.output == "lattice":
             raise VolfrepError("Drain holes go through the skin of a part: choose the output part.")

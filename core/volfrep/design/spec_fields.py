@@ -22,7 +22,7 @@ from .graphs import GivenGraph, RandomGraph, StretchedCells
 from .openings import DrainHoles, OpenFace
 from .skins.kept_bodies import KeptBody
 from .skins.own_faces import FaceSkin, KeptFace
-from .spec_parts import Boundary, Grid, Resolution, Skin, Struts
+from .spec_parts import Boundary, FlatStruts, Grid, Resolution, Skin, Struts
 from .target import Target
 from .tpms import PeriodicSurface, TpmsSheet
 
@@ -47,6 +47,7 @@ class SpecFields:
     remove_dangling: bool = False
     shortest_stub: float = 0.0
     remove_below: float = 0.0
+    flat_struts: FlatStruts | None = None
     keep_pieces: bool = False
     output: str = "part"
     fillet: float = 0.0
@@ -84,7 +85,7 @@ class SpecFields:
         """Where the lattice ends."""
         return Boundary(
             self.activation, self.boundary, self.remove_dangling, self.shortest_stub,
-            self.keep_pieces, self.remove_below,
+            self.keep_pieces, self.remove_below, self.flat_struts,
         )  # fmt: skip
 
     @property

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError, listed
-from ..util.numbers import number, point, whole
+from ..util.numbers import direction, number, point, whole
 from ..util.types import Floats
 from .grading import CellMap, Field, Orientation, RadiusGrading, SizeGrading, Vector
 from .openings import OpenFace
@@ -194,6 +194,27 @@ class Skin:
 
 
 @dataclass(frozen=True)
+class FlatStruts:
+    """Struts that lie too flat to be built, and go.
+
+    Attributes:
+        inclination: to the build plate, degrees: those of less go.
+        build_direction: from the build plate up, of any length.
+    """
+
+    inclination: float
+    build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
+
+    def __post_init__(self) -> None:
+        number("least inclination", self.inclination, "degrees", positive=True)
+        if self.inclination > 90.0:
+            raise VolfrepError(
+                f"The least inclination of struts is at most 90 degrees, not {self.inclination:g}."
+            )
+        direction("build direction", self.build_direction)
+
+
+@dataclass(frozen=True)
 class Boundary:
     """Where the lattice ends.
 
@@ -204,6 +225,8 @@ class Boundary:
         shortest_stub: struts with a free end that are shorter than this go; 0 for none, mm.
         keep_pieces: pieces of the lattice that hang on nothing stay.
         remove_below: struts that are nowhere thicker than this radius go; 0 for none, mm.
+        flat_struts: those that go because they lie too flat, and what has a free end then; None
+            for none.
     """
 
     activation: str = "touching"
@@ -212,6 +235,7 @@ class Boundary:
     shortest_stub: float = 0.0
     keep_pieces: bool = False
     remove_below: float = 0.0
+    flat_struts: FlatStruts | None = None
 
     def __post_init__(self) -> None:
         if self.activation not in ACTIVATIONS:
@@ -244,8 +268,9 @@ class Boundary:
 
     @property
     def removes_struts(self) -> bool:
-        """Whether struts go that are thin or have a free end."""
-        return self.remove_dangling or self.shortest_stub > 0 or self.remove_below > 0
+        """Whether struts go that are thin, lie flat or have a free end."""
+        is_any = self.remove_dangling or self.shortest_stub > 0 or self.remove_below > 0
+        return is_any or self.flat_struts is not None
 
 
 @dataclass(frozen=True)

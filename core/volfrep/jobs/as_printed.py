@@ -14,8 +14,8 @@ import numpy as np
 from ..design.as_printed import PrintedTable
 from ..design.cells import UnitCell
 from ..design.spec import LatticeSpec
+from ..grid.inclination import inclinations, unit_direction
 from ..grid.strut_graph import Wireframe
-from ..reports.printability import inclinations, unit_direction
 from ..util.errors import VolfrepError
 from ..util.linalg import along, times
 from ..util.showing import Shown

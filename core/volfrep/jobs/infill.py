@@ -259,6 +259,7 @@ class Infill:
             "struts_dangling_removed": pruned.left.dangling if pruned is not None else 0,
             "stubs_removed": pruned.left.stubs if pruned is not None else 0,
             "thin_struts_removed": pruned.left.thin if pruned is not None else 0,
+            "flat_struts_removed": pruned.left.flat if pruned is not None else 0,
             "pieces_removed": cleared.pieces_removed,
             "specks_removed": cleared.specks_removed,
             "drain_holes": drained.places if drained is not None else (),

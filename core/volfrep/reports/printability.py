@@ -14,12 +14,11 @@ from typing import Any
 import numpy as np
 
 from ..design.spec import LatticeSpec
+from ..grid.inclination import inclinations, is_flat, unit_direction
 from ..grid.strut_graph import Wireframe
 from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import inside_points
-from ..util.arguments import three_numbers
-from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .clearance import endless_gap, narrowest_gap
@@ -228,7 +227,7 @@ def print_report(
     total = max(float(length.sum()), 1e-300)
     edges = np.arange(0, 90 + CLASS, CLASS)
     classes = np.histogram(angle, edges, weights=length)[0] / total
-    overhanging = np.where(angle < process.inclination - 1e-9, length, 0.0)
+    overhanging = np.where(is_flat(lattice, up, process.inclination), length, 0.0)
     flat = np.where(angle < FLAT, length, 0.0)
     overhangs = overhanging_facets(mesh, up, process.inclination)
     report = PrintReport(
@@ -299,30 +298,6 @@ def print_forecast(
         saved_g=saved * spec.density / 1000.0,
         saved_share=saved / abs(solid),
     )
-
-
-def unit_direction(direction: tuple[float, float, float]) -> Floats:
-    """The direction as a unit vector (3,).
-
-    Raises:
-        VolfrepError: it has no length, or is not three finite numbers.
-    """
-    vector = np.array(three_numbers("build direction", direction))
-    size = float(np.linalg.norm(vector))
-    if not 0 < size < np.inf:
-        raise VolfrepError(
-            f"The build direction must be three numbers that are not all 0, not {direction}."
-        )
-    return vector / size
-
-
-def inclinations(lattice: Wireframe, up: Floats) -> Floats:
-    """(m,) the angle of every strut to the build plate, degrees from 0 to 90."""
-    ends = lattice.nodes[lattice.struts]
-    along = ends[:, 1] - ends[:, 0]
-    rise = np.abs(along @ up) / np.maximum(np.linalg.norm(along, axis=1), 1e-300)
-    result: Floats = np.degrees(np.arcsin(np.minimum(rise, 1.0)))
-    return result
 
 
 def overhanging_facets(mesh: TriangleMesh, up: Floats, inclination: float) -> Bools:

@@ -33,6 +33,7 @@ class Report:
         struts_dangling_removed: struts that were taken away because they had a free end.
         stubs_removed: struts that were taken away because they were short and had a free end.
         thin_struts_removed: struts that were taken away because they were nowhere thick enough.
+        flat_struts_removed: struts that were taken away because they lay too flat to be built.
         pieces_removed: lattice fragments that hung on nothing and were dropped.
         specks_removed: shells smaller than a facet that were dropped.
         drain_holes: where holes go through the skin, on the part's surface, mm.
@@ -76,6 +77,7 @@ class Report:
     struts_dangling_removed: int
     stubs_removed: int
     thin_struts_removed: int
+    flat_struts_removed: int
     pieces_removed: int
     specks_removed: int
     drain_holes: tuple[tuple[float, float, float], ...]

@@ -29,6 +29,7 @@ NOTHING_REMOVED: Mapping[str, Any] = {
     "struts_dangling_removed": 0,
     "stubs_removed": 0,
     "thin_struts_removed": 0,
+    "flat_struts_removed": 0,
     "pieces_removed": 0,
     "specks_removed": 0,
     "drain_holes": (),

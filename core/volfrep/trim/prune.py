@@ -4,7 +4,7 @@
 It is told on the struts' axes, before anything is meshed. A strut that the wall cuts ends there:
 a skin holds that end, without a skin it is free. So is the end of a strut at a node without other
 struts. Where a strut goes, its neighbours may get a free end: the search is repeated. Struts that
-are too thin go first.
+are too thin, or lie too flat to be built, go first.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ import numpy as np
 
 from ..design.cells import UnitCell
 from ..design.openings import lie_on
-from ..design.spec_parts import Boundary, Struts
+from ..design.spec_parts import Boundary, FlatStruts, Struts
+from ..grid.inclination import is_flat, unit_direction
 from ..grid.placement import Placement, graded_wireframe
 from ..grid.strut_graph import CellGraph, Wireframe, select_struts, struts_of
 from ..lattice.padded_grid import PaddedGrid
@@ -39,12 +40,14 @@ class Remaining:
         stubs: struts taken away because they were short and had a free end.
         dangling: struts taken away because they had a free end, whatever their length.
         thin: struts taken away because they were nowhere thick enough.
+        flat: struts taken away because they lay too flat to be built.
     """
 
     kept: Bools
     stubs: int
     dangling: int
     thin: int
+    flat: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +102,7 @@ def prune(
         shortest=boundary.shortest_stub,
         dangling=boundary.remove_dangling,
         thickest=boundary.remove_below,
+        flat=boundary.flat_struts,
     )
     inner = graph.row[tuple(slice(n, -n or None) for n in graph.first.tolist())]
     own = struts_of(graph, cell, inner[active])
@@ -114,6 +118,7 @@ def remaining(
     dangling: bool,
     thickest: float = 0.0,
     openings: TriangleMesh | None = None,
+    flat: FlatStruts | None = None,
 ) -> Remaining:
     """The struts that stay when thin ones and those with free ends go.
 
@@ -128,6 +133,7 @@ def remaining(
         dangling: all struts with a free end go.
         thickest: struts whose radius is nowhere above it go, mm; 0 for none.
         openings: faces of the wall that have no skin; None for none.
+        flat: struts that lie as flat go, and those with a free end then; None for none.
     """
     count = len(lattice.struts)
     if boundary is None:
@@ -140,20 +146,27 @@ def remaining(
     length = pieces.lengths(lattice)
     ends, fixed = _ends(pieces, lattice, has_skin, openings)
     thin = lattice.radii.max(axis=1) <= thickest
-    alive = ~thin[pieces.owner]
+    lies_flat = np.zeros(count, bool)
+    if flat is not None:
+        lies_flat = is_flat(lattice, unit_direction(flat.build_direction), flat.inclination) & ~thin
+        dangling = True
+    alive = ~(thin | lies_flat)[pieces.owner]
     owners = np.bincount(pieces.owner, minlength=count) > 0
 
     def gone() -> Bools:
         left = np.bincount(pieces.owner[alive], minlength=count)
         return np.asarray(owners & (left == 0))
 
-    are_thin = int(gone().sum())
+    first = gone()
+    are_flat = int((first & lies_flat).sum())
+    are_thin = int(first.sum()) - are_flat
     alive = _without_free(ends, fixed, alive, length < shortest)
-    stubs = int(gone().sum()) - are_thin
+    stubs = int(gone().sum()) - are_thin - are_flat
     if dangling:
         alive = _without_free(ends, fixed, alive, alive)
     lost = gone()
-    return Remaining(~lost, stubs, int(lost.sum()) - stubs - are_thin, are_thin)
+    loose = int(lost.sum()) - stubs - are_thin - are_flat
+    return Remaining(~lost, stubs, loose, are_thin, are_flat)
 
 
 def _to_near_nodes(pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh) -> Pieces:

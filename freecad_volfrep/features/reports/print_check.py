@@ -154,7 +154,7 @@ def make_print_check(
     Raises:
         VolfrepError: there is no such process, or that is no lattice infill; nothing is added.
     """
-    from volfrep.reports.printability import unit_direction
+    from volfrep.grid.inclination import unit_direction
     from volfrep.reports.processes import find_process
 
     check_infill(infill)

@@ -957,6 +957,10 @@
       <translation>Lose Streben weg</translation>
     </message>
     <message>
+      <source>Remove Flatter</source>
+      <translation>Flachere entfernen</translation>
+    </message>
+    <message>
       <source>Report</source>
       <translation>Bericht</translation>
     </message>
@@ -1147,6 +1151,10 @@
     <message>
       <source>Take away struts that are nowhere thicker than this radius; 0 for none</source>
       <translation>Streben wegnehmen, die nirgends dicker als dieser Radius sind; 0 für keine</translation>
+    </message>
+    <message>
+      <source>Take away struts that lie flatter than so many degrees to the build plate, and those with a free end then; 0 for none</source>
+      <translation>Streben wegnehmen, die flacher als so viele Grad zur Bauplatte liegen, und die dann ein freies Ende haben; 0 für keine</translation>
     </message>
     <message>
       <source>Take away struts with a free end that are shorter than this; 0 for none</source>

@@ -957,6 +957,10 @@
       <translation>Togli aste pendenti</translation>
     </message>
     <message>
+      <source>Remove Flatter</source>
+      <translation>Togli le più piatte</translation>
+    </message>
+    <message>
       <source>Report</source>
       <translation>Rapporto</translation>
     </message>
@@ -1147,6 +1151,10 @@
     <message>
       <source>Take away struts that are nowhere thicker than this radius; 0 for none</source>
       <translation>Toglie le aste che in nessun punto sono più spesse di questo raggio; 0 per nessuna</translation>
+    </message>
+    <message>
+      <source>Take away struts that lie flatter than so many degrees to the build plate, and those with a free end then; 0 for none</source>
+      <translation>Toglie le aste inclinate di meno di questi gradi rispetto al piano di stampa, e quelle che poi hanno un'estremità libera; 0 per nessuna</translation>
     </message>
     <message>
       <source>Take away struts with a free end that are shorter than this; 0 for none</source>

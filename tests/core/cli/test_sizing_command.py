@@ -108,6 +108,32 @@ def test_the_file_of_a_sized_part_keeps_within_limits(
     assert "facets along a cell in place of" in capsys.readouterr().err
 
 
+def test_a_design_for_its_process_passes_the_print_check(part: Path, tmp_path: Path) -> None:
+    """And its file is made again of its specification; a cell of which all lies flat keeps all."""
+    spec, report = tmp_path / "s.toml", tmp_path / "report.json"
+    more = ("--write-spec", spec, "--report", report, "--no-proof", "--steps", "3", "--safety", "2")
+    built = ("--process", "LPBF", "--build-direction", "1,0,0", "--thinnest", "0.1")
+    assert size(part, *WHOLE, "--cell", "FCC", *more, *built) == 0
+    told = json.loads(report.read_text(encoding="utf-8"))
+    assert told["print_report"]["findings"] == []
+    assert told["print_report"]["thinnest_strut_mm"] >= 0.6 - 1e-6
+    assert told["part"]["flat_struts_removed"] == told["sizing"]["building"]["removed"] > 0
+    again = tmp_path / "again.stl"
+    assert run("fill", part, "-o", again, "--spec", spec, "--quiet") == 0
+    assert again.read_bytes() == (tmp_path / "out.stl").read_bytes()
+
+
+def test_struts_that_cannot_be_spared_stay_and_are_told(part: Path, tmp_path: Path) -> None:
+    """Of CVC cells all lie at 35 degrees."""
+    report = tmp_path / "report.json"
+    more = ("--process", "LPBF", "--report", report, "--no-proof", "--steps", "3", "--safety", "2")
+    assert size(part, *WHOLE, "--cell", "CVC", *more) == 0
+    told = json.loads(report.read_text(encoding="utf-8"))
+    assert told["part"]["flat_struts_removed"] == 0
+    assert any("flatter than LPBF builds stay" in note for note in told["sizing"]["notes"])
+    assert told["print_report"]["overhanging_share"] == pytest.approx(1.0)
+
+
 @pytest.mark.slow
 def test_thin_struts_that_carry_little_are_taken_away(part: Path, tmp_path: Path) -> None:
     radii, spec, report = (tmp_path / name for name in ("r.csv", "s.toml", "report.json"))

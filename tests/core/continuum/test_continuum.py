@@ -22,7 +22,7 @@ from volfrep.design.parameters.spec_file import read_spec
 from volfrep.design.profile import Profile
 from volfrep.jobs.homogenised import homogenise_part
 from volfrep.jobs.part_bricks import cell_law
-from volfrep.jobs.sizing.sizing import solve_struts
+from volfrep.jobs.sizing import solve_struts
 from volfrep.loads.load_cases import Heat, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane, NearPoint
 from volfrep.mechanics.catalogue import catalogue

@@ -10,7 +10,7 @@ from volfrep.continuum.eigen import lumped_mass
 from volfrep.jobs.homogenised import homogenise_part
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.part_bricks import cell_law
-from volfrep.jobs.sizing.sizing import solve_struts
+from volfrep.jobs.sizing import solve_struts
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Mass, Support
 
 LENGTH, WIDE = 120, 60

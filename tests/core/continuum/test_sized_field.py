@@ -20,7 +20,7 @@ from volfrep.jobs.homogenised import homogenise_part
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.part_bricks import PartBricks, cell_law
 from volfrep.jobs.sized_field import FieldGoal, _grading, field_goal, homogenise_sized
-from volfrep.jobs.sizing.sizing import solve_struts
+from volfrep.jobs.sizing import solve_struts
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material

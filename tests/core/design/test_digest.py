@@ -24,6 +24,7 @@ from volfrep.design.scattered_field import PointField
 from volfrep.design.skins import kept_bodies, own_faces
 from volfrep.design.skins.kept_bodies import KeptBody
 from volfrep.design.skins.own_faces import FaceSkin, KeptFace
+from volfrep.design.spec_parts import FlatStruts
 from volfrep.design.target import Target
 from volfrep.design.tpms import PeriodicSurface, TpmsSheet, library
 from volfrep.design.tpms import sheet as walls
@@ -67,6 +68,7 @@ OTHERS = {
             "face_skins": (FaceSkin(PLANE, 1.0),), "keep_solid": (KeptFace(PLANE, 1.0),),
             "skin_field": FIELD,
             "drains": None, "remove_dangling": True, "shortest_stub": 1.0, "remove_below": 0.4,
+            "flat_struts": FlatStruts(45.0),
             "keep_pieces": True, "output": "domain", "fillet": 0.5, "origin": (0, 0, 0),
             "density": 2.0, "size_grading": SizeGrading(LINEAR),
             "radius_grading": RadiusGrading("skin", LINEAR), "cell_map": CellMap("cylindrical"),
@@ -115,6 +117,10 @@ OTHERS = {
     FaceSkin: (FaceSkin(PLANE, 1.0), {"face": OTHER_PLANE, "thickness": 2.0}),
     KeptFace: (KeptFace(PLANE, 1.0), {"face": OTHER_PLANE, "distance": 2.0}),
     KeptBody: (KeptBody(CORNERS, FACETS), {"vertices": 2.0 * CORNERS, "triangles": None}),
+    FlatStruts: (
+        FlatStruts(45.0),
+        {"inclination": 30.0, "build_direction": (1.0, 0.0, 0.0)},
+    ),
     DrainHoles: (
         DrainHoles(3.0, count=1),
         {

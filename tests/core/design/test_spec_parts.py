@@ -15,7 +15,7 @@ from volfrep.design.openings import DrainHoles, DrainPlace, OpenPatch, OpenPlane
 from volfrep.design.profile import Profile
 from volfrep.design.scattered_field import PointField
 from volfrep.design.skins.own_faces import FaceSkin, KeptFace
-from volfrep.design.spec_parts import Boundary, Grid, Resolution, Skin, Struts
+from volfrep.design.spec_parts import Boundary, FlatStruts, Grid, Resolution, Skin, Struts
 from volfrep.design.target import Target
 from volfrep.design.tpms import TpmsSheet
 
@@ -55,6 +55,7 @@ OTHERS = [
             "remove_dangling": True,
             "shortest_stub": 1.0,
             "remove_below": 0.4,
+            "flat_struts": FlatStruts(45.0),
             "keep_pieces": True,
         },
     ),
@@ -121,6 +122,7 @@ OTHERS = [
             "remove_dangling": True,
             "shortest_stub": 1.0,
             "remove_below": 0.4,
+            "flat_struts": FlatStruts(45.0),
             "keep_pieces": True,
             "output": "domain",
             "fillet": 0.5,

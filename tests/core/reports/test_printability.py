@@ -8,17 +8,13 @@ import pytest
 
 import samples
 from volfrep import LatticeSpec, VolfrepError
+from volfrep.grid.inclination import inclinations, unit_direction
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.jobs.beam_part import block_beams
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
-from volfrep.reports.printability import (
-    inclinations,
-    overhanging_facets,
-    print_report,
-    unit_direction,
-)
+from volfrep.reports.printability import overhanging_facets, print_report
 from volfrep.reports.processes import PROCESSES, Process, find_process
 
 UP = np.array([0.0, 0.0, 1.0])

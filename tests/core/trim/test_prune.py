@@ -12,6 +12,7 @@ from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.cells import PAPERS, find_cell
 from volfrep.design.grading import RadiusGrading, SizeGrading
 from volfrep.design.profile import Profile
+from volfrep.design.spec_parts import FlatStruts
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write.stl import as_read
 from volfrep.jobs.pipeline import fill
@@ -65,6 +66,21 @@ def test_thin_struts_go_and_those_that_then_have_a_free_end():
     left = remaining(lattice, None, dangling=True, **free)
     assert not left.kept.any()  # an open chain is left, which goes from both ends
     assert (left.thin, left.dangling) == (2, 3)
+
+
+def test_struts_that_lie_flat_go_and_those_that_then_have_a_free_end():
+    """A chain up, across, up and across: its first two pieces stand, the last one hangs free."""
+    nodes = np.array([[0, 0, 0], [0, 0, 1], [1, 0, 1], [1, 0, 2], [0, 0, 2.0], [0, 1, 3]])
+    struts = np.array([[0, 1], [1, 2], [2, 3], [3, 4], [1, 4], [4, 0], [4, 5]], np.int32)
+    lattice = Wireframe(nodes, struts, np.ones((7, 2)), np.ones(6))
+    free = {"has_skin": False, "shortest": 0.0, "dangling": False}
+    left = remaining(lattice, None, **free, flat=FlatStruts(45.0))
+    assert left.kept.tolist() == [True, False, False, False, True, True, False]
+    assert (left.flat, left.dangling) == (2, 2)
+    # The last strut rises as much as it goes aside: of just the inclination it is not too flat.
+    assert remaining(lattice, None, **free, flat=FlatStruts(46.0)).flat == 3
+    along_x = remaining(lattice, None, **free, flat=FlatStruts(45.0, (2.0, 0.0, 0.0)))
+    assert along_x.flat == 5
 
 
 def test_a_skin_holds_what_it_cuts_and_an_open_wall_does_not():

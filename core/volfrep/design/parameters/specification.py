@@ -20,7 +20,7 @@ from ..scattered_field import read_curve
 from ..skins.kept_bodies import KeptBody, read_body
 from ..skins.own_faces import FaceSkin, KeptFace
 from ..spec import LatticeSpec
-from ..spec_parts import first_radius
+from ..spec_parts import FlatStruts, first_radius
 from ..target import THICKNESSES, Target, read_target, stiffness_text
 from ..tpms import TpmsSheet
 from .parameter import Need, Parameter, effective
@@ -77,6 +77,7 @@ def specification(values: Mapping[str, Any], say: Naming = in_file) -> LatticeSp
         **_skin_of(used),
         cell=cell,
         drains=_drains(parts["drains"], used),
+        flat_struts=_flat_struts(parts["flat_struts"], used),
         size_grading=_size_grading(parts),
         radius_grading=_radius_grading(parts, used, cell.measure, say),
         cell_map=CellMap(**parts["cell_map"]) if used["cell_map"] != "cartesian" else None,
@@ -148,6 +149,8 @@ def values_of(spec: LatticeSpec) -> dict[str, Any]:
     found |= {**spec.cell.as_values(), **_skin_values(spec)}
     if spec.drains is not None:
         found["drain"] = tuple((*p.point, *(p.direction or ())) for p in spec.drains.places)
+    if spec.flat_struts is not None:
+        found["build_direction"] = spec.flat_struts.build_direction
     if spec.orientation is not None:
         found["rotate"] = (*spec.orientation.axis, spec.orientation.angle)
     found |= spec.kind.as_values()
@@ -203,6 +206,12 @@ def _drains(own: Mapping[str, Any], used: Mapping[str, Any]) -> DrainHoles | Non
         for x, y, z, *way in (*(used["drain_points"] or ()), *(used["drain"] or ()))
     )
     return DrainHoles(places=places, **own)
+
+
+def _flat_struts(own: Mapping[str, Any], used: Mapping[str, Any]) -> FlatStruts | None:
+    if not own["inclination"]:
+        return None
+    return FlatStruts(**own, build_direction=used["build_direction"])
 
 
 def _profile(kind: str, start: float, end: float | None, expression: str | None) -> Profile:

@@ -274,6 +274,12 @@ PARAMETERS = (
         default=False, needs=(OF_STRUTS,), of_block=False, in_panel=True, field="remove_dangling",
     ),
     Parameter(
+        "remove_flatter", "number", "Boundary",
+        "Take away struts that lie flatter than so many degrees to the build plate, and those with "
+        "a free end then; 0 for none",
+        default=0.0, needs=(OF_STRUTS,), of_block=False, field="flat_struts.inclination",
+    ),
+    Parameter(
         "shortest_stub", "length", "Boundary",
         "Take away struts with a free end that are shorter than this; 0 for none",
         default=0.0, needs=(OF_STRUTS,), of_block=False, in_panel=True, field="shortest_stub",

@@ -29,8 +29,8 @@ class Keywords(TypedDict, total=False):
     build_direction: Any
     """From the build plate up; 0,0,1 if not given."""
     cell: Any
-    """The unit cell: one of the library, a surface that walls follow (Gyroid and others), or the
-    .json file of your own; CVC if not given.
+    """The unit cell: one of the library, a TPMS such as Gyroid, or the .json file of your own; CVC
+    if not given.
     """
     cell_map: Any
     """Cells along straight axes, about an axis, or about a centre; cartesian if not given."""
@@ -66,6 +66,8 @@ class Keywords(TypedDict, total=False):
     """Radius of the round between struts where they meet; 0 for none, mm, 0 or 1e-09 to 1e+06; 0 if
     not given.
     """
+    flat_struts: Any
+    """A `LatticeSpec`'s flat_struts."""
     grading_direction: Any
     """Cells grow along it; 1,0,0 if not given."""
     keep_pieces: bool
@@ -78,8 +80,8 @@ class Keywords(TypedDict, total=False):
     """
     keep_solid: Any
     """What stays solid: the room of a closed body in a file (STL, PLY, OBJ, OFF, GLB), or what is
-    nearer than a distance, the last number, to the smooth face at a point or to the faces in a
-    plane; may be repeated.
+    nearer than a distance, the last number, to the smooth face at a point or the faces in a plane;
+    may be repeated.
     """
     lambda_end: float | None
     """lambda at the far end, s = 1, 1e-06 to 1e+06."""
@@ -102,9 +104,8 @@ class Keywords(TypedDict, total=False):
     mass: float | str | None
     """In place of the radius: mass of the finished part, with its skin, g, 1e-09 to 1e+12."""
     network: Any
-    """What the lattice consists of: cells, the Voronoi or the Delaunay edges of random points, the
-    nodes and struts of a file, or layers of cells that follow faces picked in FreeCAD; cells if not
-    given.
+    """What the lattice consists of: cells, Voronoi or Delaunay edges of random points, nodes and
+    struts of a file, or layers of cells that follow faces picked in FreeCAD; cells if not given.
     """
     network_angle: float | None
     """Of two struts that meet at less than so many degrees the longer one goes, 1e-06 to 1e+06; 25
@@ -195,6 +196,10 @@ class Keywords(TypedDict, total=False):
     """
     remove_dangling: bool
     """Take away struts with a free end, again and again until there are none; no if not given."""
+    remove_flatter: float | None
+    """Take away struts that lie flatter than so many degrees to the build plate, and those with a
+    free end then; 0 for none, 0 or 1e-06 to 1e+06; 0 if not given.
+    """
     resolution: int | None
     """Facets along the edge of a cell; 0 to choose it by the deviation; 0 if not given."""
     rotate: Any
@@ -219,17 +224,16 @@ class Keywords(TypedDict, total=False):
     not given.
     """
     skin_face: Any
-    """A skin of its own thickness below the smooth face at a point, or below the faces in a plane
-    by a point and a normal; the last number is the thickness, and 0 leaves them open; may be
-    repeated.
+    """Skin below the smooth face at a point, or below the faces in a plane by a point and a normal,
+    of a thickness, the last number; 0 leaves them open; may be repeated.
     """
     skin_field: str | ByPlace
     """File of points and thicknesses of the skin, which it follows below all other faces, nowhere
     thinner than the shell; or by place.
     """
     stiffness: Any
-    """In place of the radius: Young's modulus of the lattice along 100, 110, 111 or X,Y,Z of its
-    cell, in MPa where a material is given, else in units of the solid's.
+    """In place of the radius: Young's modulus along 100, 110, 111 or X,Y,Z of the cell, in MPa with
+    a material, else in units of the solid's.
     """
     strut_radius: float | ByPlace | None
     """r: radius of the struts, mm, 1e-09 to 1e+06; 1 if not given; or by place."""
@@ -242,8 +246,8 @@ class Keywords(TypedDict, total=False):
     cell.
     """
     wall_kind: Literal["sheet", "skeleton", "complement"]
-    """sheet: a wall about the surface; skeleton: all where its formula is negative; complement: all
-    where it is positive; sheet if not given.
+    """sheet: a wall about the surface; skeleton: where its formula is negative; complement: where
+    it is positive; sheet if not given.
     """
     wall_offset: float | None
     """By how many mm a skeleton or complement is thicker than up to the surface; negative for a

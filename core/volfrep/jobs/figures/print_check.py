@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 from ...design.spec import LatticeSpec
+from ...grid.inclination import unit_direction
 from ...grid.strut_graph import Wireframe
 from ...mesh.triangle_mesh import TriangleMesh, compact
-from ...reports.printability import PrintReport, overhanging_facets, print_report, unit_direction
+from ...reports.printability import PrintReport, overhanging_facets, print_report
 from ...reports.processes import Process
 from ..kinds import lattice_kind
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Radii that follow what a part carries: what is wanted, and the job that finds them."""
 
+from .as_it_is import solve_struts
+from .building import Building
 from .file_proof import check_file_proof, prove_file
 from .goal import GOALS, Goal, goal_of
 from .printed import Printing, printed_note
@@ -8,12 +10,12 @@ from .result_files import values_with_radii, write_radii, write_thickness
 from .sizing import (
     SizedPart,
     size,
-    solve_struts,
 )
 from .thin_struts import radius_field
 
 __all__ = [
     "GOALS",
+    "Building",
     "Goal",
     "Printing",
     "SizedPart",

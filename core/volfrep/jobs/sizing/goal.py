@@ -13,6 +13,7 @@ from ...sizing.analysis import Limits
 from ...sizing.symmetry import Mirrors
 from ...util.arguments import check_kind
 from ...util.errors import VolfrepError, brief
+from .building import Building
 from .printed import Printing
 
 #: What a user may want: limits, or a mass of struts, and between which radii, how even; between
@@ -44,6 +45,8 @@ class Goal:
         weights: of the load cases, for stiffness; None for all alike.
         radius_list: mm, the radii that nodes may have; empty for any.
         mirrors: planes of symmetry; None for none.
+        building: how the part is built: struts are no thinner than that, and none flatter as far
+            as limits allow; None where it does not count.
         printing: how struts come out, which all figures are then of; None as they are drawn.
         solid_places: where limits ask for more than the thickest skin, the part becomes solid.
     """
@@ -62,6 +65,7 @@ class Goal:
     mirrors: Mirrors | None = None
     printing: Printing | None = None
     solid_places: bool = True
+    building: Building | None = None
 
 
 def goal_of(
@@ -74,6 +78,7 @@ def goal_of(
     symmetry: str | None = None,
     printing: Printing | None = None,
     solid_places: bool = True,
+    building: Building | None = None,
 ) -> Goal:
     """The goal that a user has written down.
 
@@ -87,6 +92,7 @@ def goal_of(
         symmetry: planes as a text, such as "x=0, z=2.5"; None for none.
         printing: see `Goal`.
         solid_places: see `Goal`.
+        building: see `Goal`.
 
     Raises:
         VolfrepError: there is no goal of a name, two say the same, or a number makes no sense.
@@ -141,6 +147,7 @@ def goal_of(
         mirrors=None if symmetry is None else _mirrors_of(symmetry, named("symmetry")),
         printing=printing,
         solid_places=solid_places,
+        building=building,
     )  # fmt: skip
 
 

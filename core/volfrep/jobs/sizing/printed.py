@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from ...design.as_printed import PrintedTable
+from ...grid.inclination import inclinations, unit_direction
 from ...grid.strut_graph import Wireframe
-from ...reports.printability import inclinations, unit_direction
 from ...sizing.analysis import Analysis
 from ...sizing.model import SizingModel
 from ...sizing.node_radii import ComesOut

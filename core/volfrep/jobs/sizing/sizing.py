@@ -28,6 +28,7 @@ from ...util.showing import Shown
 from ...util.types import Floats
 from ..infill import Infill
 from ..kinds import lattice_kind
+from .buildable import buildable, checked
 from .goal import Goal
 from .governing import Governing, governing
 from .notes import (
@@ -44,8 +45,9 @@ from .notes import (
     too_dense,
     unproved,
 )
+from .overhanging import building_figures, overhanging_skin
 from .part_model import given_radii, part_model, without_target
-from .printed import Printing, printed_figures, printed_note
+from .printed import printed_figures, printed_note
 from .skin_search import (
     SkinDesign,
     design_skin,
@@ -163,14 +165,59 @@ def size(
     monitor, cache = monitor or Monitor(progress), cache or StageCache()
     refuse_heat(loads)
     loads = with_weights(loads)
+    goal, notes = buildable(checked(goal or Goal()), spec)
+    seconds = {"model": 0.0, "sizing": 0.0}
+
+    def designed(spec: LatticeSpec) -> _ProvedDesign:
+        start = time.perf_counter()
+        task = _prepare(solid, spec, loads, goal, monitor, cache, progress)
+        task.notes.extend(notes)
+        seconds["model"] += time.perf_counter() - start
+        start = time.perf_counter()
+        try:
+            return _find_proved(task, most_steps, watch, prove_it)
+        finally:
+            seconds["sizing"] += time.perf_counter() - start
+
+    made = _without_flat_struts(designed, spec, goal)
     start = time.perf_counter()
-    task = _prepare(solid, spec, loads, _checked(goal or Goal()), monitor, cache, progress)
-    seconds = {"model": time.perf_counter() - start}
-    start = time.perf_counter()
-    made = _find_proved(task, most_steps, watch, prove_it)
     before = _of_one_radius(made.task, made.search.sized.analysis)
-    seconds["sizing"] = time.perf_counter() - start
+    seconds["sizing"] += time.perf_counter() - start
     return _record(made.task, made.search, made.proof, before, seconds)
+
+
+def _without_flat_struts(
+    designed: Callable[[LatticeSpec], _ProvedDesign], spec: LatticeSpec, goal: Goal
+) -> _ProvedDesign:
+    """The design without struts that its process cannot build; with them where it does not hold.
+
+    Args:
+        designed: makes the design of a specification.
+        spec: with all struts.
+        goal: what is wanted.
+    """
+    building = goal.building
+    steeper = None if building is None else building.without_flat_struts(spec)
+    if steeper is None:
+        return designed(spec)
+    try:
+        made = designed(steeper)
+    except Cancelled:
+        raise
+    except VolfrepError as error:
+        reason = str(error).rstrip(".")
+    else:
+        sized = made.search.sized
+        if sized.holds or sized.stopped == "cancelled":
+            return made
+        reason = "without them the limits cannot be held"
+    whole = designed(spec)
+    assert building is not None
+    whole.task.notes.append(
+        f"Struts that lie flatter than {building.process.name} builds stay: {reason}. Another "
+        "cell, or another build direction, may have fewer of them."
+    )
+    return whole
 
 
 @dataclass(frozen=True, eq=False)
@@ -276,21 +323,6 @@ def _find_proved(
         tried = replace(tried, ratios=made.ratios)
     assert best is not None
     return best
-
-
-def _checked(goal: Goal) -> Goal:
-    """The goal, whose limit of buckling is one of struts together, too.
-
-    Raises:
-        VolfrepError: it asks for two things at once, or its smoothing makes no sense.
-    """
-    if goal.limits.frame_buckling is None:
-        goal = replace(goal, limits=replace(goal.limits, frame_buckling=goal.limits.buckling))
-    if goal.limits.any and goal.volume is not None:
-        raise VolfrepError("Give limits for the least mass, or a volume for the most stiffness.")
-    if not 0.0 <= goal.smooth <= 0.9:
-        raise VolfrepError(f"The smoothing must be from 0 to 0.9, not {goal.smooth:g}.")
-    return goal
 
 
 def _prepare(
@@ -552,6 +584,9 @@ def _record(
     if search.any_radii is not None:
         wanted = np.array(task.goal.radius_list)
         report["radius_list"] = list_figures(wanted, search.any_radii, search.sized.analysis)
+    if task.goal.building is not None:
+        report["building"] = building_figures(task.goal.building, task.infill)
+        report["notes"] += overhanging_skin(report["building"])
     if task.goal.printing is not None:
         report["as_printed"] = printed_figures(
             task.goal.printing,
@@ -592,44 +627,6 @@ def _with_skin(report: dict[str, Any], task: _Task, model: SizingModel) -> None:
         report["uses"] = {**report["uses"], **use}
         last["uses"] = {**last["uses"], **use}
         report["limits"]["skin stress"] = limit
-
-
-def solve_struts(
-    solid: TriangleMesh,
-    spec: LatticeSpec,
-    loads: LoadCases,
-    *,
-    printing: Printing | None = None,
-    progress: ProgressCallback | None = None,
-    cache: StageCache | None = None,
-) -> tuple[SizingModel, Analysis]:
-    """What a part's struts do as they are: nothing is sized.
-
-    Args:
-        solid: checked closed mesh, mm.
-        spec: what it is filled with, graded or not.
-        loads: the material, and what the part carries.
-        printing: how struts come out; None as they are drawn.
-        progress: called with the fraction done and the stage; returning False cancels.
-        cache: keeps the costly stages of the part.
-
-    Raises:
-        VolfrepError: as `size`.
-        Cancelled: the callback said so.
-    """
-    cache = cache or StageCache()
-    spec = without_target(solid, spec, Goal(), cache, progress, [])
-    infill = Infill(solid, spec, monitor=Monitor(progress), cache=cache)
-    frame = infill.struts
-    radii = np.zeros(len(frame.nodes))
-    radii[frame.struts] = frame.radii
-    used = radii[radii > 0.0]
-    refuse_heat(loads)
-    loads = with_weights(loads)
-    low, high = 0.999 * float(used.min()), 1.001 * float(used.max())
-    goal = Goal(thinnest=low, thickest=high, printing=printing)
-    model = part_model(infill, loads, goal, cache)
-    return model, analyse(model.problem, np.maximum(radii, low), Limits())[0]
 
 
 def _stored(problem: Problem, radii: Floats, limits: Limits) -> Analysis:

@@ -18,9 +18,9 @@ from ...jobs.figures.properties import lattice_properties
 from ...jobs.infill import Infill
 from ...jobs.kinds import lattice_kind
 from ...jobs.preview import PartDepth
+from ...jobs.sizing import size, solve_struts
 from ...jobs.sizing.goal import goal_of
 from ...jobs.sizing.result_files import values_with_radii, write_radii
-from ...jobs.sizing.sizing import size, solve_struts
 from ...jobs.targets import solve_target
 from ...loads.load_cases import LoadCases
 from ...loads.load_file import read_load_cases

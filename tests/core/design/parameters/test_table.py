@@ -61,7 +61,7 @@ def test_every_field_of_the_specification_can_be_asked_for(tmp_path: Path) -> No
         "cell": "BCC", "cell_size": 8.0, "strut_radius": 0.5, "shell": 1.0, "fillet": 0.1,
         "origin": (1.0, 2.0, 3.0), "activation": "centre", "boundary": "whole",
         "remove_dangling": True, "shortest_stub": 0.5, "keep_pieces": True,
-        "remove_below": 0.6,
+        "remove_below": 0.6, "remove_flatter": 45.0, "build_direction": (1.0, 0.0, 0.0),
         "open_plane": ((0, 0, 1, 0, 0, 1),), "skin_face": ((0, 0, 2, 3),),
         "keep_solid": ((0, 0, 2, 0, 0, 1, 4),), "skin_field": str(thickness),
         "drain_diameter": 2.0, "drain_count": 1, "deviation": 0.1, "density": 2.0,

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How flat struts lie when a part is built along a direction."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..util.arguments import three_numbers
+from ..util.errors import VolfrepError
+from ..util.types import Bools, Floats
+from .strut_graph import Graph
+
+#: Degrees by which a strut of just an inclination may differ from it, as nodes are rounded.
+_EXACT = 1e-6
+
+
+def unit_direction(direction: tuple[float, float, float]) -> Floats:
+    """The direction as a unit vector (3,).
+
+    Raises:
+        VolfrepError: it has no length, or is not three finite numbers.
+    """
+    vector = np.array(three_numbers("build direction", direction))
+    size = float(np.linalg.norm(vector))
+    if not 0 < size < np.inf:
+        raise VolfrepError(
+            f"The build direction must be three numbers that are not all 0, not {direction}."
+        )
+    return vector / size
+
+
+def inclinations(lattice: Graph, up: Floats) -> Floats:
+    """(m,) the angle of every strut to the build plate, degrees from 0 to 90."""
+    ends = lattice.nodes[lattice.struts]
+    along = ends[:, 1] - ends[:, 0]
+    rise = np.abs((along * up).sum(axis=1)) / np.maximum(np.linalg.norm(along, axis=1), 1e-300)
+    result: Floats = np.degrees(np.arcsin(np.minimum(rise, 1.0)))
+    return result
+
+
+def is_flat(lattice: Graph, up: Floats, inclination: float) -> Bools:
+    """(m,) which struts lie flatter than so many degrees, those of just as many not."""
+    return np.asarray(inclinations(lattice, up) < inclination - _EXACT)

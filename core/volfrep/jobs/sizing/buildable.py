@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is wanted of a design: whether it makes sense, and what of it its process builds."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ...design.spec import LatticeSpec
+from ...util.errors import VolfrepError
+from .goal import Goal
+
+
+def checked(goal: Goal) -> Goal:
+    """The goal, whose limit of buckling is one of struts together, too.
+
+    Raises:
+        VolfrepError: it asks for two things at once, or its smoothing makes no sense.
+    """
+    if goal.limits.frame_buckling is None:
+        goal = replace(goal, limits=replace(goal.limits, frame_buckling=goal.limits.buckling))
+    if goal.limits.any and goal.volume is not None:
+        raise VolfrepError("Give limits for the least mass, or a volume for the most stiffness.")
+    if not 0.0 <= goal.smooth <= 0.9:
+        raise VolfrepError(f"The smoothing must be from 0 to 0.9, not {goal.smooth:g}.")
+    return goal
+
+
+def buildable(goal: Goal, spec: LatticeSpec) -> tuple[Goal, list[str]]:
+    """The goal with struts and a sized skin no thinner than its process builds, and what to tell.
+
+    Raises:
+        VolfrepError: a list has thinner radii.
+    """
+    building = goal.building
+    if building is None:
+        return goal, []
+    process, notes = building.process, []
+    least = building.least_radius(None if goal.printing is None else goal.printing.table)
+    if goal.radius_list:
+        if goal.radius_list[0] < least:
+            raise VolfrepError(
+                f"The list has a radius of {goal.radius_list[0]:.4g} mm, and {process.name} wants "
+                f"{least:.4g} mm: leave thinner ones out."
+            )
+        least = goal.radius_list[0]
+    elif goal.thinnest is not None and goal.thinnest < least:
+        notes.append(f"Struts are no thinner than {process.name} prints: {least:.4g} mm in radius.")
+    thinnest = max(least, 0.5 * spec.strut_radius if goal.thinnest is None else goal.thinnest)
+    goal = replace(goal, thinnest=thinnest)
+    if goal.skin_thinnest is not None and goal.skin_thinnest < process.wall:
+        notes.append(f"The skin is no thinner than {process.name} prints: {process.wall:.4g} mm.")
+        goal = replace(goal, skin_thinnest=process.wall)
+    return goal, notes

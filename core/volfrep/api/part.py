@@ -51,7 +51,7 @@ class Part:
     >>> import volfrep
     >>> part = volfrep.block((1, 1, 1), cell="BCC", cell_size=10, strut_radius=1)
     >>> part
-    <Part of BCC: 20 struts, 5,992 triangles, 516.5 mm3, 0.52 g>
+    <Part of BCC: 20 struts, 6,008 triangles, 516.5 mm3, 0.52 g>
     """
 
     result: Result

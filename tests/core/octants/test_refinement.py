@@ -8,7 +8,7 @@ from implicit import octant_surface
 from volfrep import LatticeSpec
 from volfrep.design.cells import LIBRARY
 from volfrep.jobs.blocks import block
-from volfrep.octants import octant_mesh, sdf
+from volfrep.octants import batch, octant_mesh, sdf
 from volfrep.octants.octant import ALL_ACTIVE, OctantKey, octant_primitives
 from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.octants.octant_spec import OctantSpec
@@ -104,7 +104,7 @@ def test_a_border_that_strays_is_divided_as_the_octant_beyond_divides_it(monkeyp
     part = block(LatticeSpec("BCC", cell_size=10.0, strut_radius=1.0, resolution=25), (2, 2, 2))
     assert part.report.watertight
     assert part.report.bodies == 1
-    monkeypatch.setattr(octant_mesh, "BORDER_ROUNDS", 0)
+    monkeypatch.setattr(batch, "BORDER_ROUNDS", 0)
     assert (divided.entity != 13).sum() > (octant_of("BCC", 25).entity != 13).sum()
 
 

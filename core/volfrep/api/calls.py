@@ -250,11 +250,12 @@ def size(
         solid, wanted = _read_call(part, unit, callback, spec, given, None)
         loads = _loads(loads, solid)
         wanted = dataclasses.replace(wanted, density=loads.material.density)
+        up = given.get("build_direction")
+        up = BY_NAME["build_direction"].default if up is None else up
         goal = goal_of(
             loads.material, asked, remove_thin=remove_thin, radius_list=radius_list,
             symmetry=symmetry, solid_places=solid_places,
-            printing=_printing(as_printed, scatter, given.get("build_direction")),
-            building=_building(process, given.get("build_direction")),
+            printing=_printing(as_printed, scatter, up), building=_building(process, up),
         )  # fmt: skip
         if prove == "file":
             check_file_proof(goal)
@@ -282,7 +283,6 @@ def _printing(table: str | None, scatter: float, up: Any) -> Printing | None:
     from ..design.as_printed import find_printed_table
     from ..jobs.sizing import Printing
 
-    up = BY_NAME["build_direction"].default if up is None else up
     return Printing(find_printed_table(table), up, float(scatter))
 
 
@@ -293,7 +293,6 @@ def _building(process: str | None, up: Any) -> Building | None:
     from ..jobs.sizing import Building
     from ..reports.processes import find_process
 
-    up = BY_NAME["build_direction"].default if up is None else up
     return Building(find_process(process), up)
 
 

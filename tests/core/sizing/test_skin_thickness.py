@@ -208,43 +208,49 @@ def test_its_derivatives_are_those_of_differences():
     assert found.volume == pytest.approx(problem.radii.volume(place))
 
 
+#: A twisted box of walls of 1 mm: mm and N mm.
+TWISTED, TWIST_WALL, TWIST_MOMENT = (160.0, 40.0, 30.0), 1.0, 250e3
+
+
+def walls_of_the_lightest(problem, first, limits, most_steps):
+    """Mean thickness of the twisted box that is sized within limits, away from its ends, mm."""
+    sized = lightest(problem, limits, first, most_steps=most_steps)
+    assert sized.holds
+    skin, length = problem.skin, TWISTED[0]
+    clear = np.abs(skin.skin.centres[:, 0] - 0.5 * length) < 0.5 * length - 30.0
+    thick, area = skin.of_shells(sized.analysis.radii)[clear], skin.skin.shells.area[clear]
+    return thick @ area / area.sum()
+
+
+def twisted_tube():
+    """Its problem and the first design; and the sides of the middle of its walls, mm."""
+    _, problem, first = tube(
+        TWISTED, lambda region: Moment(region, (TWIST_MOMENT, 0, 0)),
+        bounds=(0.3, 6.0), patch=15.0, shell=TWIST_WALL, cell=15.0, radius=0.3,
+    )  # fmt: skip
+    return problem, first, TWISTED[1] - TWIST_WALL, TWISTED[2] - TWIST_WALL
+
+
 @pytest.mark.slow
 def test_a_tube_in_torsion_has_the_mass_of_bredts_formula():
     """The twist of M S / (4 A2 G t) allowed: walls of t, away from the ends."""
-    length, width, height, wanted, moment = 160.0, 40.0, 30.0, 1.0, 250e3
-    _, problem, first = tube(
-        (length, width, height), lambda region: Moment(region, (moment, 0, 0)),
-        bounds=(0.3, 6.0), patch=15.0, shell=wanted, cell=15.0, radius=0.3,
-    )  # fmt: skip
-    b, h, shear = width - wanted, height - wanted, TITANIUM.young / (2.0 + 2.0 * TITANIUM.poisson)
-    twist = moment * length * 2.0 * (b + h) / (4.0 * (b * h) ** 2 * shear * wanted)
+    problem, first, b, h = twisted_tube()
+    length, width, height = TWISTED
+    shear = TITANIUM.young / (2.0 + 2.0 * TITANIUM.poisson)
+    twist = TWIST_MOMENT * length * 2.0 * (b + h) / (4.0 * (b * h) ** 2 * shear * TWIST_WALL)
     limits = Limits(displacement=twist * np.hypot(0.5 * width, 0.5 * height))
-    sized = lightest(problem, limits, first, most_steps=30)
-    assert sized.holds
-    skin = problem.skin
-    places = skin.skin.middle[skin.skin.shells.triangles].mean(axis=1)
-    clear = np.abs(places[:, 0] - 0.5 * length) < 0.5 * length - 30.0
-    thick, area = skin.of_shells(sized.analysis.radii)[clear], skin.skin.shells.area[clear]
-    assert thick @ area / area.sum() == pytest.approx(wanted, rel=0.05)
+    walls = walls_of_the_lightest(problem, first, limits, most_steps=30)
+    assert walls == pytest.approx(TWIST_WALL, rel=0.05)
 
 
 @pytest.mark.slow
 def test_a_tube_in_torsion_has_the_stress_of_its_outer_side():
     """Bredt's is the mean over a wall: where it is twisted that has t S / (2 A) more outside."""
-    length, width, height, wanted, moment = 160.0, 40.0, 30.0, 1.0, 250e3
-    _, problem, first = tube(
-        (length, width, height), lambda region: Moment(region, (moment, 0, 0)),
-        bounds=(0.3, 6.0), patch=15.0, shell=wanted, cell=15.0, radius=0.3,
-    )  # fmt: skip
-    b, h = width - wanted, height - wanted
-    bredt = np.sqrt(3.0) * moment / (2.0 * b * h * wanted)
-    limits = Limits(skin_stress=bredt * (1.0 + wanted * (b + h) / (b * h)))
-    sized = lightest(problem, limits, first, most_steps=40)
-    assert sized.holds
-    skin = problem.skin
-    clear = np.abs(skin.skin.centres[:, 0] - 0.5 * length) < 0.5 * length - 30.0
-    thick, area = skin.of_shells(sized.analysis.radii)[clear], skin.skin.shells.area[clear]
-    assert thick @ area / area.sum() == pytest.approx(wanted, rel=0.05)
+    problem, first, b, h = twisted_tube()
+    bredt = np.sqrt(3.0) * TWIST_MOMENT / (2.0 * b * h * TWIST_WALL)
+    limits = Limits(skin_stress=bredt * (1.0 + TWIST_WALL * (b + h) / (b * h)))
+    walls = walls_of_the_lightest(problem, first, limits, most_steps=40)
+    assert walls == pytest.approx(TWIST_WALL, rel=0.05)
 
 
 def lightest_walls(moment, force, width, height, stress, least):

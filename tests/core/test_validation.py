@@ -46,6 +46,33 @@ def test_what_was_read_in_its_source_stands_apart_from_what_others_quote(tool):
     assert quoted == "| young, quoted | 2 | +200% | 200% | +100%, +300% | 0.25 |"
 
 
+def test_means_are_told_with_and_without_a_suspect_row(tool):
+    rows = [
+        {"name": "a", "read": "quoted", "plateau": 1.0},
+        {"name": "b", "read": "quoted", "plateau": 2.0, "suspect": True},
+    ]
+    found = {
+        name: {"nominal": {"plateau": own}} for name, own in zip("ab", (1.4, 8.0), strict=True)
+    }
+    _, _, both, sound = tool.page.error_table(rows, found).splitlines()
+    assert both == "| plateau, quoted | 2 | +170% | 170% | +40%, +300% | 0.25 |"
+    assert sound == "| without the suspect row | 1 | +40% | 40% | +40%, +40% | 0.71 |"
+
+
+def test_errors_of_one_machine_go_with_one_compliance_in_series(tool):
+    rows = [
+        {"name": name, "series": "s", "young": 1.0 / (1.0 / own + 3e-4)}
+        for name, own in zip("abc", (15000.0, 20000.0, 25000.0), strict=True)
+    ]
+    found = {
+        name: {"nominal": {"young": own}}
+        for name, own in zip("abc", (15000.0, 20000.0, 25000.0), strict=True)
+    }
+    told = tool.page.reasons(rows, found)
+    assert "0.30/GPa" in told
+    assert "-0% to +0%" in told or "+0% to +0%" in told
+
+
 @pytest.mark.parametrize("name", ["F-BCC tube", "Diamond 28 %", "BCC 28.1 %"])
 def test_what_takes_no_time_is_predicted_as_the_page_says(tool, name):
     row = next(row for row in tool.specimens()[0] if row["name"] == name)

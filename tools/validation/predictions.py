@@ -7,12 +7,14 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
 import volfrep
 from volfrep.design.cells import LIBRARY, UnitCell
 from volfrep.fem.model import Case
+from volfrep.jobs import crushing
 from volfrep.mechanics.catalogue import catalogue, joint_law
 from volfrep.mechanics.frame import CIRCLE, frame_tensor
 from volfrep.mechanics.joint_fit import periodic_frame
@@ -43,7 +45,7 @@ def predict(specimen: dict[str, Any], diameter: float | None) -> dict[str, float
     """Modulus, first yield and plateau, MPa, energy to `STRAIN`, J/g, density of a specimen.
 
     Plateau (from a strain of 20 to 30 %) and energy are of a block of cells that is crushed, where
-    they were measured.
+    they were measured; "unhardened" is the plateau of metal or plastic that only yields.
 
     Args:
         specimen: a row of the table.
@@ -79,6 +81,10 @@ def predict(specimen: dict[str, Any], diameter: float | None) -> dict[str, float
         end = float(curve.strain[-1])
         energy = curve.energy_to(end) + (STRAIN - end) * float(curve.stress[-1])
         result["energy"] = energy / (density * solid.density)
+    if "plateau" in specimen:
+        with patch.object(crushing, "HARDENING", 0.0):
+            curve = volfrep.crush(cell, **size, material=solid, count=BLOCK)
+        result["unhardened"] = curve.plateau or math.nan
     return result
 
 

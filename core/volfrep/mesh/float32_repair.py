@@ -7,7 +7,7 @@ And slivers as thin: three corners almost on a line may lie on it after rounding
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ from ..util.threads import in_threads
 from ..util.types import Bools, Ints
 from . import remesh
 from .precision import merging_vertices
-from .topology import edge_keys, open_vertices, touching, vertices_of
+from .topology import edge_keys, numbered, open_vertices, touching, vertices_of
 from .triangle_mesh import TriangleMesh, compact, compacted
 
 #: By rounding a height may come out so many times as large, from whichever corner it is taken.
@@ -122,25 +122,28 @@ def _rebuilt(mesh: TriangleMesh, thin: Ints, tolerance: float) -> tuple[Triangle
     """As `without_inner_slivers`, of chosen triangles."""
     if not len(thin):
         return mesh, np.zeros(len(mesh.triangles), bool), np.arange(len(mesh.triangles))
-    points, triangles, old = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
+    found = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
+    points, triangles, old = found.points, found.triangles, found.old
+    rebuilt, was = triangles[len(triangles) - len(found.origin) :], old[found.origin]
+    moved = _moved(points, mesh.vertices, np.flatnonzero(vertices_of(rebuilt, len(points))))
+    new = _differ(rebuilt, mesh.triangles[was]) | touching(moved, rebuilt)
     stayed = np.delete(np.arange(len(mesh.triangles)), old)
-    rebuilt = triangles[len(stayed) :]
-    moved = np.zeros(len(points), bool)
-    moved[np.flatnonzero((points != mesh.vertices).ravel()) // 3] = True
-    name, names = _names(rebuilt), _names(mesh.triangles[old])
-    order = np.argsort(names)
-    place = np.minimum(np.searchsorted(names, name, sorter=order), len(old) - 1)
-    is_old = (names[order[place]] == name) & ~touching(moved, rebuilt)
-    was = np.concatenate([stayed, np.where(is_old, old[order[place]], -1)])
+    was = np.concatenate([stayed, np.where(new, -1, was)])
     return TriangleMesh(points, triangles), was < 0, was
 
 
-def _names(triangles: NDArray[np.int32]) -> NDArray[np.uint64]:
-    """(m,) a number for each triangle, whichever of its corners comes first."""
-    a, b, c = np.sort(triangles, axis=1).astype(np.uint64).T
-    with np.errstate(over="ignore"):
-        name: NDArray[np.uint64] = (a << np.uint64(32) | b) * np.uint64(0x9E3779B97F4A7C15) + c
-    return name
+def _moved(points: NDArray[np.float64], before: NDArray[np.float64], rows: Ints) -> Bools:
+    """(n,) which of the points, among some of them, are elsewhere than before."""
+    moved = np.zeros(len(points), bool)
+    moved[rows] = _differ(points[rows], before[rows])
+    return moved
+
+
+def _differ(rows: NDArray[Any], others: NDArray[Any]) -> Bools:
+    """(m,) which rows of three are not the same."""
+    # A column at a time: numpy is slow at reducing many short rows.
+    a, b, c = (rows[:, k] != others[:, k] for k in range(3))
+    return np.asarray(a | b | c, np.bool_)
 
 
 def slivers(mesh: TriangleMesh, tolerance: float) -> Ints:
@@ -177,6 +180,22 @@ def _slivers_in(
     return np.flatnonzero(thin)
 
 
+class _Rest(NamedTuple):
+    """A mesh in which some triangles were looked at.
+
+    Attributes:
+        points: (n, 3), some of them no longer in use.
+        triangles: those that were not looked at, and then those that are left of the others.
+        old: (p,) which those others were, ascending.
+        origin: (k,) which of the old ones each of the last triangles was.
+    """
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    old: Ints
+    origin: Ints
+
+
 def _without(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],
@@ -184,10 +203,8 @@ def _without(
     tolerance: float,
     passes: int,
     changed: Bools | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.int32], Ints]:
-    """Points, some of them no longer in use, triangles, and which of the old ones went.
-
-    The new triangles are the last ones.
+) -> _Rest:
+    """What is left of a mesh with some slivers.
 
     A pass leaves few slivers: the next one looks at their neighbourhoods only, and only where the
     last one has `changed` something, (n,) bool: it would leave all else as it is once more.
@@ -196,26 +213,28 @@ def _without(
     if changed is not None:
         thin = thin[touching(changed, triangles[thin])]
         if not len(thin):
-            return points, triangles, thin
+            return _Rest(points, triangles, thin, thin)
     near = vertices_of(triangles[thin], len(points))
     near[triangles[touching(near, triangles)]] = True
     part = np.flatnonzero(touching(near, triangles))
-    used, local = np.unique(triangles[part], return_inverse=True)
-    moved, kept, inner = _collapse(points[used], local.reshape(-1, 3).astype(np.int64), tolerance)
+    used, local = numbered(triangles[part], len(points))
+    moved, kept, inner, origin = _collapse(points[used], local, tolerance)
     inner, flipped = _flip_slivers(moved, inner, tolerance)
     if not flipped and len(kept) == len(used):
-        moved, kept, inner = _close_slivers(moved, inner, tolerance)
+        moved, kept, inner, origin = _close_slivers(moved, inner, tolerance)
     stay = used[kept]
     piece = inner.astype(np.int32)
     if passes > 1 and (flipped or len(stay) < len(used)):
         left = _slivers(moved, piece, tolerance)
         if len(left):
-            fresh = ~np.isin(_names(stay[piece]), _names(triangles[part]))
-            fresh |= touching((moved != points[stay]).any(axis=1), piece)
+            fresh = _differ(stay[piece], triangles[part[origin]])
+            fresh |= touching(_differ(moved, points[stay]), piece)
             near = vertices_of(piece[fresh], len(stay))
             for _ in range(2):  # rings within which it may have kept back something else
                 near[piece[touching(near, piece)]] = True
-            moved, piece, _ = _without(moved, piece, left, tolerance, passes - 1, near)
+            count = len(piece)
+            moved, piece, old, rest = _without(moved, piece, left, tolerance, passes - 1, near)
+            origin = origin[np.concatenate([np.delete(np.arange(count), old), old[rest]])]
     points = points.copy()
     points[stay] = moved
     untouched = np.ones(len(triangles), bool)
@@ -224,17 +243,81 @@ def _without(
     joined = np.empty((len(stayed) + len(piece), 3), np.int32)
     np.take(triangles, stayed, axis=0, out=joined[: len(stayed)], mode="clip")
     joined[len(stayed) :] = stay[piece]
-    return points, joined, part
+    return _Rest(points, joined, part, origin)
 
 
-def _collapse(
-    points: NDArray[np.float64], triangles: Ints, tolerance: float
-) -> tuple[NDArray[np.float64], Ints, Ints]:
-    """An open piece of mesh, collapsed within its border: points, which they were, triangles."""
-    rank = open_vertices(triangles, len(points)).astype(np.int64)
+class _Collapsed(NamedTuple):
+    """An open piece of mesh after edges were collapsed.
+
+    Attributes:
+        points: (k, 3) that are left.
+        kept: (k,) which they were.
+        triangles: that are left.
+        origin: (m,) which they were.
+    """
+
+    points: NDArray[np.float64]
+    kept: Ints
+    triangles: Ints
+    origin: Ints
+
+    @classmethod
+    def of(
+        cls,
+        points: NDArray[np.float64],
+        triangles: Ints,
+        used: Ints,
+        some: NDArray[np.float64],
+        renumber: Ints,
+    ) -> _Collapsed:
+        """What `remesh.collapse` has made of all triangles at those `used` points that went.
+
+        Args:
+            points: (n, 3) as they were.
+            triangles: (m, 3) as they were.
+            used: (u,) the points that it was given, ascending.
+            some: those of these that are left.
+            renumber: (u,) as it returns it.
+        """
+        every, gone = np.arange(len(points)), renumber < 0
+        if not gone.any():
+            return cls(points, every, triangles, np.arange(len(triangles)))
+        left, merged, moved = used[~gone], every.copy(), points.copy()
+        moved[left] = some
+        merged[used[gone]] = left[~renumber[gone]]
+        kept = np.flatnonzero(merged == every)
+        number = np.zeros(len(points), np.int64)
+        number[kept] = np.arange(len(kept))
+        result = number[merged[triangles]]
+        one, two, three = result.T
+        stays = np.flatnonzero((one != two) & (two != three) & (three != one))
+        return cls(moved[kept], kept, result[stays], stays)
+
+
+def _collapse(points: NDArray[np.float64], triangles: Ints, tolerance: float) -> _Collapsed:
+    """An open piece of mesh, collapsed within its border."""
+    # Short edges are few: the triangles about their ends tell all of what may be done there, and
+    # in their order.
+    ends = _short_ends(points, triangles, NEARLY * tolerance)
+    used, local = numbered(triangles[touching(ends, triangles)], len(points))
+    rank = open_vertices(local, len(used)).astype(np.int64)
     rules = _rules(rank, lambda a, b: _keeps_side(a, b, tolerance))
-    points, triangles, renumber = remesh.collapse(points, triangles, rules, tolerance, np.inf)
-    return points, np.flatnonzero(renumber >= 0), triangles
+    some, _, renumber = remesh.collapse(points[used], local, rules, tolerance, np.inf)
+    return _Collapsed.of(points, triangles, used, some, renumber)
+
+
+def _short_ends(points: NDArray[np.float64], triangles: Ints, length: float) -> Bools:
+    """(n,) which vertices are at edges shorter than a length, mm."""
+    found = np.zeros(len(points), bool)
+    corners = [np.ascontiguousarray(triangles[:, k]) for k in range(3)]
+    for one, two in zip(corners, [*corners[1:], corners[0]], strict=True):
+        square = np.zeros(len(one))
+        for column in points.T:
+            square += (column[one] - column[two]) ** 2
+        short = square < length**2
+        found[one[short]] = True
+        found[two[short]] = True
+    return found
 
 
 def _rules(
@@ -274,9 +357,7 @@ def _flip_slivers(
     return remesh.flip(points, triangles, gain, _none, thin)
 
 
-def _close_slivers(
-    points: NDArray[np.float64], triangles: Ints, tolerance: float
-) -> tuple[NDArray[np.float64], Ints, Ints]:
+def _close_slivers(points: NDArray[np.float64], triangles: Ints, tolerance: float) -> _Collapsed:
     """As `_collapse`, of slivers that no flip helps, such as some in a row along a crease.
 
     The corner that lies on the edge opposite to it is merged into the nearer end of that edge, if
@@ -304,7 +385,7 @@ def _close_slivers(
     np.maximum.at(farthest, owner, off)
     flat = farthest < tolerance
     if not flat.any():
-        return points, np.arange(count), triangles
+        return _Collapsed(points, np.arange(count), triangles, np.arange(len(triangles)))
     gone, kept, farthest = gone[flat], kept[flat], farthest[flat]
     edge, first = np.unique(edge_keys(gone, kept, count), return_index=True)
 
@@ -319,8 +400,8 @@ def _close_slivers(
         return (after >= np.minimum(before, tolerance)) & _keeps_side(old, new, tolerance)
 
     rules = _rules(rank, good, merge)
-    points, triangles, renumber = remesh.collapse(points, triangles, rules, np.inf, np.inf)
-    return points, np.flatnonzero(renumber >= 0), triangles
+    some, _, renumber = remesh.collapse(points, triangles, rules, np.inf, np.inf)
+    return _Collapsed.of(points, triangles, np.arange(count), some, renumber)
 
 
 def _none(one: Ints, two: Ints) -> Bools:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -114,26 +115,35 @@ def without_pinches(
     while True:
         padded = wrapped(current, periodic)
         add = np.zeros_like(padded)
-        for axis in range(3):
-            a, b = (k for k in range(3) if k != axis)
-            for sign in (1, -1):
-                side_a = np.roll(padded, -1, axis=a)
-                side_b = np.roll(padded, -sign, axis=b)
-                diagonal = np.roll(side_a, -sign, axis=b)
-                pinch = padded & diagonal & ~side_a & ~side_b
-                add |= np.roll(pinch, 1, axis=a)
-                add |= np.roll(pinch, sign, axis=b)
-        for signs in ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)):
-            opposite = np.roll(padded, [-s for s in signs], axis=(0, 1, 2))
-            between = np.zeros_like(padded)
-            for k in range(1, 7):
-                shift = [-(s if k >> axis & 1 else 0) for axis, s in enumerate(signs)]
-                between |= np.roll(padded, shift, axis=(0, 1, 2))
-            pinch = padded & opposite & ~between
-            for k in range(1, 7):
-                shift = [(s if k >> axis & 1 else 0) for axis, s in enumerate(signs)]
-                add |= np.roll(pinch, shift, axis=(0, 1, 2))
+        # Of two octants along each axis: as views, and how many of them are of the border.
+        windows = {place: _window(padded, place) for place in np.ndindex(2, 2, 2)}
+        grows = {place: _window(add, place) for place in windows}
+        every = sum(window.view(np.int8) for window in windows.values())
+        for places in (*_faces(), tuple(windows)):
+            taken = every
+            if len(places) == 4:
+                taken = sum(windows[place].view(np.int8) for place in places)
+            for place, other in zip(places, places[::-1], strict=True):
+                if place > other:
+                    break
+                # Only those two, that lie opposite to each other.
+                pinch = (taken == 2) & windows[place] & windows[other]
+                if pinch.any():
+                    for between in places:
+                        grows[between] |= pinch
         grown = current | (add[1:-1, 1:-1, 1:-1] & present)
         if (grown == current).all():
             return current
         current = grown
+
+
+def _window(padded: NDArray[np.bool_], place: tuple[int, ...]) -> NDArray[np.bool_]:
+    """All but the last octants along each axis (0), or all but the first (1): a view."""
+    ends = zip(place, padded.shape, strict=True)
+    return padded[tuple(slice(step, size - 1 + step) for step, size in ends)]
+
+
+def _faces() -> Iterator[tuple[tuple[int, ...], ...]]:
+    """The places of two by two octants about an edge along each axis, opposite ones in turn."""
+    for axis in range(3):
+        yield tuple(place for place in np.ndindex(2, 2, 2) if not place[axis])

@@ -130,16 +130,31 @@ class Caps:
 
 
 @dataclass(frozen=True, eq=False)
+class PlacedVertices:
+    """Vertices of octants that are placed already.
+
+    Attributes:
+        numbers: (k,) ascending.
+        points: (k, 3) where they are, mm.
+    """
+
+    numbers: Ints
+    points: Floats
+
+
+@dataclass(frozen=True, eq=False)
 class InnerOctants:
     """Octants that belong to a surface without being in its mesh.
 
     Attributes:
         lattice: all the octants.
         where: (nx, ny, nz) bool, these.
+        known: vertices, those at their rim among them; None: none is placed yet.
     """
 
     lattice: PlacedLattice
     where: Bools
+    known: PlacedVertices | None = None
 
     @cached_property
     def layout(self) -> Layout:
@@ -165,7 +180,16 @@ class InnerOctants:
     @cached_property
     def rim_points(self) -> Floats:
         """(k, 3) where they are, mm."""
+        if self.known is not None:
+            return self.known.points[self.rim_in_known]
         return self.lattice.coordinates(self.rim.astype(np.int32), self._at_rim, Monitor())
+
+    @property
+    def rim_in_known(self) -> Ints:
+        """(k,) which of the known vertices they are; of all where none is known."""
+        if self.known is None:
+            return np.arange(len(self.rim))
+        return np.searchsorted(self.known.numbers, self.rim)
 
     @cached_property
     def _at_rim(self) -> Bools:

@@ -23,7 +23,7 @@ from ..spatial.resolve_crossings import Looks
 from ..spatial.winding import Lines, Windings, mesh_blocks
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .placed_lattice import Caps, InnerOctants
+from .placed_lattice import Caps, InnerOctants, PlacedVertices
 
 #: Points are first told apart by what is left of their hashes by this.
 ASKED = 1 << 22
@@ -50,7 +50,8 @@ class TrimmedSurface:
         mesh: what was cut; open where octants inside follow.
         octants: those that belong to the surface beside the mesh; None for none.
         looks: what is known of the mesh's triangles; None: nothing.
-        rim_guess: (k,) the mesh's vertices that are probably those at the octants' rim.
+        rim_guess: (k,) the mesh's vertices that are probably those at the octants' rim, or those
+            that are known of them; None: not known.
     """
 
     mesh: TriangleMesh
@@ -115,9 +116,16 @@ class TrimmedSurface:
         )
         rest = inner.where & ~where
         looks = self.looks and self.looks.padded(0, len(more.triangles))
-        return TrimmedSurface(
-            mesh, InnerOctants(inner.lattice, rest) if rest.any() else None, looks
-        )
+        if not rest.any():
+            return TrimmedSurface(mesh, None, looks)
+        if (self._rim_rows < 0).any():
+            return TrimmedSurface(mesh, InnerOctants(inner.lattice, rest), looks)
+        # The others are open where all were, and where those that are in the mesh now follow.
+        numbers = np.concatenate([number, inner.rim[~shared]])
+        order = np.argsort(numbers, kind="stable")
+        rows = np.concatenate([row, self._rim_rows[~shared]])[order]
+        known = PlacedVertices(numbers[order], mesh.vertices[rows])
+        return TrimmedSurface(mesh, InnerOctants(inner.lattice, rest, known), looks, rows)
 
     def met_by(self, lines: Lines) -> Windings:
         """What lines meet of it."""
@@ -217,7 +225,9 @@ class TrimmedSurface:
     @cached_property
     def _rim_rows(self) -> Ints:
         """The mesh's vertices at the rim, as they are at the octants' rim; -1 for none."""
-        points, guess = self._inner.rim_points, self.rim_guess
+        points, guess, known = self._inner.rim_points, self.rim_guess, self._inner.known
+        if guess is not None and known is not None and len(guess) == len(known.numbers):
+            guess = guess[self._inner.rim_in_known]
         if guess is not None and len(guess) == len(points):
             found = np.take(self.mesh.vertices, guess, axis=0, mode="clip")
             if np.array_equal(found, points) and (guess >= 0).all():

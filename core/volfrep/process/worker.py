@@ -38,6 +38,8 @@ try:
     tempfile.tempdir = {folder!r}
     sys.path[:0] = {front!r}
     sys.path += {back!r}
+    from volfrep.util.threads import one_for_matrices
+    one_for_matrices()
     {prelude}
     from volfrep.process.server import serve
     serve({folder!r}, {threads!r}, {warm!r})

@@ -34,6 +34,7 @@ from volfrep.process.worker import Call, Failed, Program, Worker
 from volfrep.reports.facet_roles import kinds_of_triangles
 from volfrep.util.cache import StageCache
 from volfrep.util.errors import Cancelled, VolfrepError
+from volfrep.util.threads import MATRIX_THREADS
 
 HERE = str(Path(__file__).parent)
 CORE = str(Path(__file__).parents[3] / "core")
@@ -141,6 +142,16 @@ def test_threads_that_it_may_use_are_told_to_it():
     worker = Worker(replace(PYTHON, threads=3))
     assert worker.answer(Call("volfrep.util.threads:threads", has_progress=False)) == 3
     assert worker.answer(Call(os.getenv, ("OMP_NUM_THREADS",), has_progress=False)) == "3"
+    worker.end()
+
+
+def test_its_matrices_have_one_thread_where_nothing_says_how_many(monkeypatch: pytest.MonkeyPatch):
+    """Before anything there loads numpy, which counts them then."""
+    for name in MATRIX_THREADS:
+        monkeypatch.delenv(name, raising=False)
+    worker = Worker(PYTHON)
+    asked = Call(os.getenv, ("OPENBLAS_NUM_THREADS",), has_progress=False)
+    assert worker.answer(asked) == "1"
     worker.end()
 
 

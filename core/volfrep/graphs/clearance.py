@@ -7,6 +7,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..grid.strut_graph import Wireframe
+from ..util.ragged import spread
 from ..util.types import Floats, Ints
 
 
@@ -51,8 +52,7 @@ def too_near(frame: Wireframe, wide: float, ball: float) -> Ints:
     # Long struts are looked for piece by piece, so that the tree's balls are small.
     piece = max(float(np.median(length[:count])), 4.0 * widest)
     pieces = np.maximum(np.ceil(length / piece).astype(np.int64), 1)
-    owner = np.repeat(np.arange(len(length)), pieces)
-    place = np.arange(len(owner)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    owner, place = spread(pieces)
     share = (place + 0.5) / pieces[owner]
     middle = start[owner] + share[:, None] * (end - start)[owner]
     half = 0.5 * length[owner] / pieces[owner] + radius[owner]

@@ -20,6 +20,7 @@ from scipy.spatial import ConvexHull, cKDTree
 from ..grid.strut_graph import Wireframe
 from ..util.linalg import times
 from ..util.progress import Monitor
+from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
 from .half_struts import HalfStruts, ball_directions, ball_scale
 from .piece_fit import Pieces
@@ -68,9 +69,8 @@ def _meeting(node: Ints) -> tuple[Ints, Ints]:
     count = np.bincount(node)
     first = np.cumsum(count) - count
     times = count[node[order]]
-    one = np.repeat(order, times)
-    place = np.arange(len(one)) - np.repeat(np.cumsum(times) - times, times)
-    two = order[np.repeat(first[node[order]], times) + place]
+    owner, place = spread(times)
+    one, two = order[owner], order[first[node[order[owner]]] + place]
     return one[one != two], two[one != two]
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..grid.strut_graph import Wireframe
 from ..mesh import remesh
+from ..util.ragged import table_of
 from ..util.types import Bools, Floats, Ints
 from .half_struts import HalfStruts, corner_scale
 
@@ -29,7 +30,7 @@ class Pieces:
         self._place, self._node, self._halves = place, node, halves
         self._sides = halves.rays.shape[1]
         self._balls = frame.joint_radii
-        self._arms = _arms(halves.node, len(frame.nodes))
+        self._arms = table_of(halves.node, len(frame.nodes))
 
     def flipped(self, rows: Ints) -> Ints:
         """The triangles, flipped where the other diagonal lies nearer to the surface.
@@ -116,13 +117,3 @@ def _size(a: Floats, b: Floats, c: Floats) -> Floats:
     """Product of the lengths of three vectors each."""
     found: Floats = np.prod([np.linalg.norm(v, axis=1) for v in (a, b, c)], axis=0)
     return found
-
-
-def _arms(node: Ints, count: int) -> Ints:
-    """(count, k) the half struts at every node; -1 where it has fewer than k."""
-    order = np.argsort(node, kind="stable")
-    number = np.bincount(node, minlength=count)
-    table = np.full((count, int(number.max(initial=0))), -1, np.int64)
-    first = np.cumsum(number) - number
-    table[node[order], np.arange(len(node)) - np.repeat(first, number)] = order
-    return table

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..design.cells import NODE_TOLERANCE, UnitCell, joint_radius
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.packages import make_frame
+from ..util.ragged import table_of
 from ..util.types import Bools, Floats, Ints
 
 if TYPE_CHECKING:
@@ -197,9 +198,5 @@ def neighbour_table(struts: NDArray[np.int32] | Ints, count: int) -> Ints:
     """(count, k) the other ends of the struts at every node; -1 where it has fewer than k."""
     start = np.concatenate([struts[:, 0], struts[:, 1]]).astype(np.int64)
     end = np.concatenate([struts[:, 1], struts[:, 0]]).astype(np.int64)
-    order = np.argsort(start, kind="stable")
-    start, end = start[order], end[order]
-    number = np.bincount(start, minlength=count)
-    table = np.full((count, int(number.max(initial=0))), -1, np.int64)
-    table[start, np.arange(len(start)) - np.repeat(np.cumsum(number) - number, number)] = end
-    return table
+    half = table_of(start, count)
+    return np.where(half < 0, -1, end[half])

@@ -22,6 +22,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.even_points import even_points
 from ..spatial.winding import crossings
 from ..util.progress import Monitor
+from ..util.ragged import spread
 from ..util.types import Floats
 
 #: Points for a first guess and for the radius itself, as powers of two; a
@@ -130,8 +131,7 @@ def _radii_reaching(
     span = end - start
     length = np.linalg.norm(span, axis=1)
     number = np.maximum(np.ceil(length / (_MARKS * cell_size)).astype(np.int64), 2)
-    strut = np.repeat(np.arange(len(span)), number)
-    place = np.arange(len(strut)) - np.repeat(np.cumsum(number) - number, number)
+    strut, place = spread(number)
     marks = start[strut] + ((place + 0.5) / number[strut])[:, None] * span[strut]
     width = frame.radii.mean(axis=1) / radius
     joint = frame.joint_radii / (radius + radius**2 / cell_size)

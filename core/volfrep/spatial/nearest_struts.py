@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..util.ragged import spread
 from ..util.threads import threads
 from ..util.types import Floats, Ints
 
@@ -30,8 +31,7 @@ class NearestStrut:
         length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         spacing = max(float(np.median(length)) / 4.0, 1e-9)
         count = np.clip(np.ceil(length / spacing), 1, MOST_SAMPLES).astype(np.int64)
-        self._owner = np.repeat(np.arange(len(ends)), count)
-        within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+        self._owner, within = spread(count)
         share = ((within + 0.5) / count[self._owner])[:, None]
         along = ends[self._owner]
         self._tree = cKDTree((1.0 - share) * along[:, 0] + share * along[:, 1])

@@ -22,6 +22,19 @@ def spread(counts: Ints) -> tuple[Ints, Ints]:
     return owner, place
 
 
+def table_of(owner: Ints, count: int) -> Ints:
+    """(count, k) the entries of every owner in their order; -1 where it has fewer than k.
+
+    >>> table_of(np.array([1, 0, 1]), 2).tolist()
+    [[1, -1], [0, 2]]
+    """
+    order = np.argsort(owner, kind="stable")
+    number = np.bincount(owner, minlength=count)
+    table = np.full((count, int(number.max(initial=0))), -1, np.int64)
+    table[owner[order], spread(number)[1]] = order
+    return table
+
+
 def rows_of(start: Ints, index: Ints) -> tuple[Ints, Ints]:
     """Positions of the rows `index`, and which of `index` each belongs to.
 

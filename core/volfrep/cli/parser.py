@@ -6,12 +6,14 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from collections.abc import Sequence
-from typing import NoReturn
+from collections.abc import Callable, Sequence
+from typing import NoReturn, TypeVar
 
 from ..util.deprecation import PARAMETERS, current_name
 from ..util.errors import VolfrepError
 from ..util.version import describe
+
+Number = TypeVar("Number", int, float)
 
 #: Options of earlier versions, and what they are called now.
 RENAMED = {
@@ -98,40 +100,36 @@ def say(text: str) -> None:
     print(f"volfrep: {text}", file=sys.stderr)
 
 
-def three_whole_numbers(text: str) -> tuple[int, int, int]:
+def three_whole_numbers(text: str) -> tuple[int, ...]:
     """Three whole numbers between commas."""
-    try:
-        x, y, z = (int(number) for number in text.split(","))
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(
-            f"'{text}' is not three whole numbers with commas, NX,NY,NZ, such as 10,10,10"
-        ) from error
-    return x, y, z
+    return _split(
+        text, ",", int, 3, "not three whole numbers with commas, NX,NY,NZ, such as 10,10,10"
+    )
 
 
 def numbers(text: str) -> tuple[float, ...]:
     """Numbers between commas."""
-    try:
-        return tuple(float(number) for number in text.split(","))
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"'{text}' is no list of numbers with commas") from error
+    return _split(text, ",", float, None, "no list of numbers with commas")
 
 
-def three_numbers(text: str) -> tuple[float, float, float]:
+def three_numbers(text: str) -> tuple[float, ...]:
     """Three numbers between commas."""
-    try:
-        x, y, z = (float(number) for number in text.split(","))
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(
-            f"'{text}' is not three numbers with commas, X,Y,Z, such as 0,0,1"
-        ) from error
-    return x, y, z
+    return _split(text, ",", float, 3, "not three numbers with commas, X,Y,Z, such as 0,0,1")
 
 
-def shard(text: str) -> tuple[int, int]:
+def shard(text: str) -> tuple[int, ...]:
     """I of N, from 1 on."""
+    return _split(text, "/", int, 2, "no shard, I/N, such as 1/4")
+
+
+def _split(
+    text: str, mark: str, kind: Callable[[str], Number], count: int | None, what: str
+) -> tuple[Number, ...]:
+    """The numbers between marks, so many where that is given; `what` a text is that has others."""
     try:
-        one, of = (int(number) for number in text.split("/"))
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"'{text}' is no shard, I/N, such as 1/4") from error
-    return one, of
+        found = tuple(kind(word) for word in text.split(mark))
+    except ValueError:
+        found = ()
+    if not found or count not in (None, len(found)):
+        raise argparse.ArgumentTypeError(f"'{text}' is {what}")
+    return found

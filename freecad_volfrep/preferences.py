@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a user sets once for all documents: keys, defaults and limits, in one place.
+"""What a user sets once for all documents: keys, words, defaults and limits, in one place.
 
 The values lie in FreeCAD's parameters (Edit > Preferences > VOLFREP, or Tools > Edit parameters).
 Whatever was typed there by hand, what is read here makes sense.
@@ -23,19 +23,25 @@ class Preference:
 
     Attributes:
         key: its name there.
+        label: what its page calls it.
+        tip: the sentence that explains it.
         default: what holds where nothing is stored.
         low: the least number.
         high: the largest number.
         automatic: whether 0 is allowed as well, and leaves the choice to VOLFREP.
         choices: of a text: called for the texts that are allowed.
+        unit: behind a number on its page.
     """
 
     key: str
+    label: str
+    tip: str
     default: bool | int | float | str
     low: float = 0.0
     high: float = math.inf
     automatic: bool = False
     choices: Callable[[], Sequence[str]] | None = None
+    unit: str = ""
 
 
 @dataclass(frozen=True)
@@ -52,24 +58,83 @@ def _cells() -> list[str]:
     return [*LIBRARY, *SURFACES]
 
 
-CELL_TYPE = Preference("NewCellType", "CVC", choices=_cells)
-CELL_SIZE = Preference("NewCellSize", 0.0, 0.01, 1000.0, automatic=True)
-STRUT_SHARE = Preference("NewStrutRadiusShare", 0.1, 0.01, 0.4)
-SKIN = Preference("NewShellThickness", 0.0, 0.01, 1000.0, automatic=True)
-RESOLUTION = Preference("NewResolution", 0, 4, 400, automatic=True)
-DEVIATION = Preference("NewDeviation", 0.0, 0.0001, 10.0, automatic=True)
-AUTO_UPDATE = Preference("NewAutoUpdate", True)
-DENSITY = Preference("NewDensity", 1.0, 0.001, 25.0)
-PRICE = Preference("NewMaterialPrice", 0.0, 0.0, 1e6)
-LARGEST_AUTOMATIC = Preference("LargestAutomaticTriangles", 3_000_000, 0, 2_000_000_000)
-LARGEST_SHOWN = Preference("LargestShownTriangles", 1_000_000, 1_000, 2_000_000_000)
-TRANSPARENCY = Preference("Transparency", 60, 0, 100)
-MOST_PRISMS = Preference("LargestShownStruts", 6_000, 0, 1_000_000)
-STRUT_COLOUR = Colour("StrutColour", 0x216BB8FF)
-SKIN_COLOUR = Colour("SkinColour", 0xB8C2D1FF)
-CUT_COLOUR = Colour("CutColour", 0xFA9429FF)
-OVERHANG_COLOUR = Colour("OverhangColour", 0xD9291FFF)
-THREADS = Preference("Threads", 0, 1, 256, automatic=True)
+CELL_TYPE = Preference(
+    "NewCellType", "Cell type", "The unit cell of a new infill", "CVC", choices=_cells
+)
+CELL_SIZE = Preference(
+    "NewCellSize", "Cell size",
+    "Edge length L of a cell; automatic: about four cells across the thinnest side of the part",
+    0.0, 0.01, 1000.0, automatic=True, unit=" mm",
+)  # fmt: skip
+STRUT_SHARE = Preference(
+    "NewStrutRadiusShare", "Strut radius",
+    "Radius of the struts as a share of the cell size L",
+    0.1, 0.01, 0.4, unit=" L",
+)  # fmt: skip
+SKIN = Preference(
+    "NewShellThickness", "Skin thickness",
+    "Thickness of the closed skin; automatic: a fifth of the cell size",
+    0.0, 0.01, 1000.0, automatic=True, unit=" mm",
+)  # fmt: skip
+RESOLUTION = Preference(
+    "NewResolution", "Resolution",
+    "Facets along the edge of a cell; automatic: chosen by the deviation",
+    0, 4, 400, automatic=True,
+)  # fmt: skip
+DEVIATION = Preference(
+    "NewDeviation", "Deviation",
+    "Distance between a facet and the exact strut, where the resolution is automatic; "
+    "automatic: by the strut radius",
+    0.0, 0.0001, 10.0, automatic=True, unit=" mm",
+)  # fmt: skip
+AUTO_UPDATE = Preference(
+    "NewAutoUpdate", "Update at every change",
+    "The property AutoUpdate of a new infill; without it, use Update Lattice Infill",
+    True,
+)  # fmt: skip
+DENSITY = Preference(
+    "NewDensity", "Density",
+    "Density of the material, from which the mass comes",
+    1.0, 0.001, 25.0, unit=" g/cm³",
+)  # fmt: skip
+PRICE = Preference(
+    "NewMaterialPrice", "Price of a kilogram",
+    "Of the material, in your currency, from which the panel tells the cost; 0: no cost is told",
+    0.0, 0.0, 1e6,
+)  # fmt: skip
+LARGEST_AUTOMATIC = Preference(
+    "LargestAutomaticTriangles", "Triangles to wait at",
+    "A change that comes to more triangles waits for Update Lattice Infill",
+    3_000_000, 0, 2_000_000_000,
+)  # fmt: skip
+LARGEST_SHOWN = Preference(
+    "LargestShownTriangles", "Triangles to show",
+    "A mesh of more triangles is shown by a coarse likeness; files stay full",
+    1_000_000, 1_000, 2_000_000_000,
+)  # fmt: skip
+TRANSPARENCY = Preference(
+    "Transparency", "Transparency",
+    "Of a new infill, so that the lattice is seen through the skin",
+    60, 0, 100, unit=" %",
+)  # fmt: skip
+MOST_PRISMS = Preference(
+    "LargestShownStruts", "Struts to show as solids",
+    "More struts than these are drawn as lines, in the preview and in the display mode "
+    "Simplified",
+    6_000, 0, 1_000_000,
+)  # fmt: skip
+STRUT_COLOUR = Colour("StrutColour", "Colour of the lattice", "Of a new infill", 0x216BB8FF)
+SKIN_COLOUR = Colour("SkinColour", "Colour of the skin", "Of a new infill", 0xB8C2D1FF)
+CUT_COLOUR = Colour("CutColour", "Colour of cut faces", "In Section View", 0xFA9429FF)
+OVERHANG_COLOUR = Colour(
+    "OverhangColour", "Colour of overhangs", "Of a new print check", 0xD9291FFF
+)
+THREADS = Preference(
+    "Threads", "Threads",
+    "For searching nearest points, measuring meshes and writing STL files; automatic: one on "
+    "each core",
+    0, 1, 256, automatic=True,
+)  # fmt: skip
 
 #: The proxy of a mesh that is too large has this share of the triangles that may be shown.
 LIKENESS = 0.25

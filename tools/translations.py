@@ -32,6 +32,8 @@ _TABLES = {
     "Format": ("VolfrepFormats", (0,)),
     "Kind": ("VolfrepSolids", (1,)),
     "job_title": ("VolfrepJobs", (0,)),
+    "Preference": ("VolfrepPreferences", (1, 2)),
+    "Colour": ("VolfrepPreferences", (1, 2)),
     "Property": ("App::Property", (2, 3)),
     "result": ("App::Property", (2,)),
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pages of VOLFREP in FreeCAD's preferences; keys and defaults are in `preferences`.
+"""The pages of VOLFREP in FreeCAD's preferences; keys, words and defaults are in `preferences`.
 
 They are classes and no .ui files: FreeCAD's own widgets would store what is typed without the
 limits of `preferences`, and a second list of keys and defaults.
@@ -7,7 +7,6 @@ limits of `preferences`, and a second list of keys and defaults.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import FreeCADGui as Gui
@@ -23,21 +22,11 @@ PAGE_GROUP = "VOLFREP"
 _CONTEXT = "VolfrepPreferences"
 
 
-@dataclass(frozen=True)
-class Row:
-    """A preference and the words for it: a label, a tip, and the unit behind a number."""
-
-    preference: prefs.Preference
-    label: str
-    tip: str
-    unit: str = ""
-
-
 class Page:
     """One page: a form of rows in boxes. FreeCAD makes it anew for every opening of the window."""
 
     TITLE: str
-    BOXES: tuple[tuple[str, tuple[Row, ...]], ...]
+    BOXES: tuple[tuple[str, tuple[prefs.Preference, ...]], ...]
 
     def __init__(self, parent: Any = None) -> None:
         self.form = QtWidgets.QWidget()
@@ -52,9 +41,9 @@ class Page:
                 label, widget = QtWidgets.QLabel(translate(_CONTEXT, row.label)), _widget(row)
                 for part in (label, widget):
                     part.setToolTip(translate(_CONTEXT, row.tip))
-                widget.setObjectName(row.preference.key)
+                widget.setObjectName(row.key)
                 form.addRow(label, widget)
-                self._widgets[row.preference] = widget
+                self._widgets[row] = widget
             column.addWidget(box)
         defaults = QtWidgets.QPushButton(translate(_CONTEXT, "Defaults"))
         defaults.setObjectName("Defaults")
@@ -86,95 +75,13 @@ class NewInfillPage(Page):
     BOXES = (
         (
             QT_TRANSLATE_NOOP("VolfrepPreferences", "Lattice"),
-            (
-                Row(
-                    prefs.CELL_TYPE,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Cell type"),
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "The unit cell of a new infill"),
-                ),
-                Row(
-                    prefs.CELL_SIZE,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Cell size"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences",
-                        "Edge length L of a cell; automatic: about four cells across the "
-                        "thinnest side of the part",
-                    ),
-                    " mm",
-                ),
-                Row(
-                    prefs.STRUT_SHARE,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Strut radius"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences", "Radius of the struts as a share of the cell size L"
-                    ),
-                    " L",
-                ),
-                Row(
-                    prefs.SKIN,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Skin thickness"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences",
-                        "Thickness of the closed skin; automatic: a fifth of the cell size",
-                    ),
-                    " mm",
-                ),
-            ),
+            (prefs.CELL_TYPE, prefs.CELL_SIZE, prefs.STRUT_SHARE, prefs.SKIN),
         ),
         (
             QT_TRANSLATE_NOOP("VolfrepPreferences", "Mesh"),
-            (
-                Row(
-                    prefs.RESOLUTION,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Resolution"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences",
-                        "Facets along the edge of a cell; automatic: chosen by the deviation",
-                    ),
-                ),
-                Row(
-                    prefs.DEVIATION,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Deviation"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences",
-                        "Distance between a facet and the exact strut, where the "
-                        "resolution is automatic; automatic: by the strut radius",
-                    ),
-                    " mm",
-                ),
-                Row(
-                    prefs.AUTO_UPDATE,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Update at every change"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences",
-                        "The property AutoUpdate of a new infill; without it, use Update Lattice "
-                        "Infill",
-                    ),
-                ),
-            ),
+            (prefs.RESOLUTION, prefs.DEVIATION, prefs.AUTO_UPDATE),
         ),
-        (
-            QT_TRANSLATE_NOOP("VolfrepPreferences", "Material"),
-            (
-                Row(
-                    prefs.DENSITY,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Density"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences", "Density of the material, from which the mass comes"
-                    ),
-                    " g/cm³",
-                ),
-                Row(
-                    prefs.PRICE,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Price of a kilogram"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences",
-                        "Of the material, in your currency, from which the panel tells the cost; "
-                        "0: no cost is told",
-                    ),
-                ),
-            ),
-        ),
+        (QT_TRANSLATE_NOOP("VolfrepPreferences", "Material"), (prefs.DENSITY, prefs.PRICE)),
     )
 
 
@@ -185,78 +92,16 @@ class DisplayPage(Page):
     BOXES = (
         (
             QT_TRANSLATE_NOOP("VolfrepPreferences", "Limits"),
-            (
-                Row(
-                    prefs.LARGEST_AUTOMATIC,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Triangles to wait at"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences",
-                        "A change that comes to more triangles waits for Update Lattice Infill",
-                    ),
-                ),
-                Row(
-                    prefs.THREADS,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Threads"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences",
-                        "For searching nearest points, measuring meshes and writing STL files; "
-                        "automatic: one on each core",
-                    ),
-                ),
-            ),
+            (prefs.LARGEST_AUTOMATIC, prefs.THREADS),
         ),
         (
             QT_TRANSLATE_NOOP("VolfrepPreferences", "Display"),
             (
-                Row(
-                    prefs.LARGEST_SHOWN,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Triangles to show"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences",
-                        "A mesh of more triangles is shown by a coarse likeness; files stay full",
-                    ),
-                ),
-                Row(
-                    prefs.MOST_PRISMS,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Struts to show as solids"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences",
-                        "More struts than these are drawn as lines, in the preview and in the "
-                        "display mode Simplified",
-                    ),
-                ),
-                Row(
-                    prefs.TRANSPARENCY,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Transparency"),
-                    QT_TRANSLATE_NOOP(
-                        "VolfrepPreferences",
-                        "Of a new infill, so that the lattice is seen through the skin",
-                    ),
-                    " %",
-                ),
-                Row(
-                    prefs.STRUT_COLOUR,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Colour of the lattice"),
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Of a new infill"),
-                ),
-                Row(
-                    prefs.SKIN_COLOUR,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Colour of the skin"),
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Of a new infill"),
-                ),
-                Row(
-                    prefs.CUT_COLOUR,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Colour of cut faces"),
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "In Section View"),
-                ),
-                Row(
-                    prefs.OVERHANG_COLOUR,
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Colour of overhangs"),
-                    QT_TRANSLATE_NOOP("VolfrepPreferences", "Of a new print check"),
-                ),
+                prefs.LARGEST_SHOWN, prefs.MOST_PRISMS, prefs.TRANSPARENCY, prefs.STRUT_COLOUR,
+                prefs.SKIN_COLOUR, prefs.CUT_COLOUR, prefs.OVERHANG_COLOUR,
             ),
         ),
-    )
+    )  # fmt: skip
 
 
 #: In the order of FreeCAD's list.
@@ -270,9 +115,8 @@ def register_pages() -> None:
         Gui.addPreferencePage(page, PAGE_GROUP)
 
 
-def _widget(row: Row) -> Any:
+def _widget(preference: prefs.Preference) -> Any:
     """An editor of the preference's type."""
-    preference = row.preference
     if isinstance(preference, prefs.Colour):
         return Gui.UiLoader().createWidget("Gui::ColorButton")
     if preference.choices is not None:
@@ -286,12 +130,8 @@ def _widget(row: Row) -> Any:
     else:
         number = QtWidgets.QDoubleSpinBox()
         number.setDecimals(len(f"{preference.low:f}".rstrip("0").partition(".")[2]))
-    return _bounded(number, preference, row.unit)
-
-
-def _bounded(number: Any, preference: prefs.Preference, unit: str) -> Any:
     number.setRange(0 if preference.automatic else preference.low, preference.high)
-    number.setSuffix(unit)
+    number.setSuffix(preference.unit)
     number.setGroupSeparatorShown(True)
     number.setStepType(QtWidgets.QAbstractSpinBox.AdaptiveDecimalStepType)
     if preference.automatic:

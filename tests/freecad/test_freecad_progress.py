@@ -27,14 +27,14 @@ def tell(sentence, *, progress):
 
 def test_without_a_screen_a_job_is_called_where_it_is_asked_for():
     assert not App.GuiUp
-    thread, progress = run_job("A job", Call(tell, ("",)))
+    thread, progress = run_job("A job", tell, "")
     assert thread is threading.current_thread()
     assert progress is None
 
 
 def test_what_a_job_raises_arrives():
     with pytest.raises(VolfrepError, match="This job fails"):
-        run_job("A job", Call(tell, ("This job fails.",)))
+        run_job("A job", tell, "This job fails.")
 
 
 def test_the_processes_of_the_window_find_the_engine():

@@ -382,21 +382,20 @@ def drive_the_radius(doc, obj):
 def run_a_job():
     """A job has a process of its own, the window lives meanwhile, and what is raised arrives."""
     from freecad_volfrep.features.jobs.progress import run_job
-    from volfrep.process.worker import Call
 
     beats = []
     timer = QtCore.QTimer(Gui.getMainWindow())
     timer.timeout.connect(lambda: beats.append(time.monotonic()))
     timer.start(20)
-    other = run_job("A job", Call(os.getpid, has_progress=False))
+    other = run_job("A job", os.getpid, has_progress=False)
     check("a job has a process of its own", other != os.getpid(), other)
     beats.clear()
-    run_job("A job", Call(time.sleep, (2.0,), has_progress=False))
+    run_job("A job", time.sleep, 2.0, has_progress=False)
     timer.stop()
     check("the window lives meanwhile", len(beats) > 5, len(beats))
     figures["beats of 20 ms in 2 s"] = len(beats)
     try:
-        run_job("A job", Call(float, ("no number",), has_progress=False))
+        run_job("A job", float, "no number", has_progress=False)
         check("what it raises arrives", False)
     except ValueError as error:
         check("what it raises arrives", "no number" in str(error), error)

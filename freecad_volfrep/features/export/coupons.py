@@ -36,13 +36,12 @@ def coupons_of(
         Cancelled: in the window, by the user.
     """
     from volfrep.jobs.coupons import make_coupons
-    from volfrep.process.worker import Call
 
     if not kinds:
         raise VolfrepError("No coupon is chosen: tick at least one.")
     _, spec, _ = infill.Proxy.wanted(infill)
-    call = Call(make_coupons, (spec, tuple(kinds)), {"cells": cells, "first": first})
-    made: list[Coupon] = run_job(job_title("Coupons of {label}", infill), call)
+    title = job_title("Coupons of {label}", infill)
+    made: list[Coupon] = run_job(title, make_coupons, spec, tuple(kinds), cells=cells, first=first)
     return made
 
 

@@ -86,12 +86,10 @@ def ingredients_of(obj: App.DocumentObject) -> Ingredients:
     """
     solid, spec, cache = inputs_of(obj)
     from volfrep.jobs.beam_part import exact_struts
-    from volfrep.process.worker import Call
     from volfrep.trim.beam_model import deformed_struts
 
-    lattice, domain = run_job(
-        job_title("Struts of {label}", obj), Call(exact_struts, (solid, spec), {"cache": cache})
-    )
+    title = job_title("Struts of {label}", obj)
+    lattice, domain = run_job(title, exact_struts, solid, spec, cache=cache)
     warnings = deformed_struts(spec.grid, spec.struts, "Exact struts")
     return Ingredients(spec, lattice, solid, domain, warnings)
 
@@ -130,10 +128,9 @@ def exact_shape(obj: App.DocumentObject, made_of: Ingredients) -> Any:
     """
     from freecad_volfrep.bridge.beams import place_in_document
     from freecad_volfrep.bridge.worker_calls import packed_exact, unpack
-    from volfrep.process.worker import Call
 
-    call = Call(packed_exact, (exact_job(obj, made_of),))
-    shape = unpack(run_job(exact_title(obj), call, in_freecad=True))
+    job = exact_job(obj, made_of)
+    shape = unpack(run_job(exact_title(obj), packed_exact, job, in_freecad=True))
     warn(obj, made_of.warnings)
     shape.Placement = place_in_document(obj).multiply(shape.Placement)
     return shape

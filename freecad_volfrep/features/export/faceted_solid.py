@@ -98,14 +98,12 @@ def make_solid(
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
     from freecad_volfrep.bridge.worker_calls import packed_facets, unpack
-    from volfrep.process.worker import Call
 
     acceptable_solid(obj, limit)
     said = tell_stale(obj)
-    call = Call(packed_facets, (mesh_in_document(obj),), has_progress=False)
-    title = job_title("Plane faces of {label}", obj)
-    shape = unpack(run_job(title, call, in_freecad=True))
-    solid = shape_object(doc, obj, shape, PLANE)
+    title, mesh = job_title("Plane faces of {label}", obj), mesh_in_document(obj)
+    packed = run_job(title, packed_facets, mesh, has_progress=False, in_freecad=True)
+    solid = shape_object(doc, obj, unpack(packed), PLANE)
     solid.Label2 = " ".join(said)
     return solid
 

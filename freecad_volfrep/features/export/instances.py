@@ -51,12 +51,11 @@ def make_instances(doc: App.Document, obj: App.DocumentObject) -> App.DocumentOb
     """
     from freecad_volfrep.bridge.trimmed import check_volume
     from freecad_volfrep.bridge.worker_calls import packed_joints, unpack
-    from volfrep.process.worker import Call
 
     made_of = ingredients_of(obj)
     job = exact_job(obj, made_of)
-    call = Call(packed_joints, (job, *_sides(obj, made_of)))
-    joints = run_job(job_title("Instances of {label}", obj), call, in_freecad=True)
+    title, sides = job_title("Instances of {label}", obj), _sides(obj, made_of)
+    joints = run_job(title, packed_joints, job, *sides, in_freecad=True)
     if job.expected is not None:
         check_volume(joints.volume, job.expected)
     warn(obj, made_of.warnings)
@@ -160,12 +159,9 @@ def _sides(obj: App.DocumentObject, made_of: Ingredients) -> tuple[np.ndarray, n
         Cancelled: in the window, by the user.
     """
     from volfrep.jobs.beam_part import joints_at_boundary
-    from volfrep.process.worker import Call
 
-    whole, cut = run_job(
-        job_title("Struts of {label}", obj),
-        Call(joints_at_boundary, (made_of.lattice, made_of.domain)),
-    )
+    title = job_title("Struts of {label}", obj)
+    whole, cut = run_job(title, joints_at_boundary, made_of.lattice, made_of.domain)
     if np.count_nonzero(cut) > MOST_CUT_JOINTS:
         raise VolfrepError(
             f"The wall cuts {np.count_nonzero(cut):,} joints; the limit is {MOST_CUT_JOINTS:,}: "

@@ -74,7 +74,6 @@ def export_layers(
     """
     from freecad_volfrep.bridge.beams import place_in_document
     from volfrep.jobs.slices import write_layers
-    from volfrep.process.worker import Call
 
     solid, spec, cache = infill_made_of(obj)
     if abs(place_in_document(obj).Rotation.Angle) > 1e-9:
@@ -82,10 +81,9 @@ def export_layers(
             f"'{obj.Label}' is turned by its Placement or its App::Part's, and layers are cut as "
             "its base lies: turn the base instead, so that z points off the build plate."
         )
-    sizes = {"layer": layer, "pixel": pixel, "form": form}
     made: Layers = run_job(
-        job_title("Layers of {label}", obj),
-        Call(write_layers, (solid, spec, os.fspath(folder)), {**sizes, "cache": cache}),
-    )
+        job_title("Layers of {label}", obj), write_layers, solid, spec, os.fspath(folder),
+        layer=layer, pixel=pixel, form=form, cache=cache,
+    )  # fmt: skip
     warn(obj, made.warnings)
     return made

@@ -53,7 +53,6 @@ def export_for_printer(
     from volfrep.design.file_limits import limits_of
     from volfrep.output.meshes import mesh_form, write_mesh
     from volfrep.output.printed_file import fill_for_printer
-    from volfrep.process.worker import Call
 
     limits = limits_of(service, max_triangles, max_size)
     if not limits and compensate is None:
@@ -64,13 +63,9 @@ def export_for_printer(
     place = place_in_document(obj)
     up = place.inverse().Rotation.multVec(App.Vector(*build_direction))
     made = run_job(
-        job_title("File of {label}", obj),
-        Call(
-            fill_for_printer,
-            (solid, spec, limits, Path(path).suffix.lower()),
-            {"compensate": compensate, "build_direction": tuple(up), "cache": cache},
-        ),
-    )
+        job_title("File of {label}", obj), fill_for_printer, solid, spec, limits,
+        Path(path).suffix.lower(), compensate=compensate, build_direction=tuple(up), cache=cache,
+    )  # fmt: skip
     write_mesh(placed(made.mesh, place), path)
     for sentence in made.notes:
         App.Console.PrintMessage(report_line(obj.Label, sentence))

@@ -171,19 +171,16 @@ class SlicerInfill(SavesNothing):
         from volfrep.jobs.slicer_infill import cut_bands
         from volfrep.mechanics.materials import find_material
         from volfrep.mesh.triangle_mesh import concatenate
-        from volfrep.process.worker import Call
 
         if obj.Base is None:
             raise VolfrepError("There is no solid to print: choose one as Base.")
         require_engine()
         self._reader = self._reader or SolidReader()
         solid = self._reader.read(obj.Base, App.Placement())
-        call = Call(
-            cut_bands,
-            (check_solid(solid, obj.Base.Label), wanted_of(obj)),
-            {"material_density": find_material(obj.Filament).density},
-        )
-        made = run_job(job_title("Infill bands of {label}", obj.Base), call)
+        title, part = job_title("Infill bands of {label}", obj.Base), obj.Base.Label
+        density = find_material(obj.Filament).density
+        solid, wanted = check_solid(solid, part), wanted_of(obj)
+        made = run_job(title, cut_bands, solid, wanted, material_density=density)
         pieces = [made.solid, *(band.mesh for band in made.bands[1:])]
         mesh = to_freecad(placed(concatenate(*pieces), parent_placement(obj).inverse()))
         place = obj.Placement

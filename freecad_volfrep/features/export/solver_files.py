@@ -59,12 +59,9 @@ def axes_of(obj: App.DocumentObject) -> Clipped:
     solid, spec, cache = inputs_of(obj)
     from freecad_volfrep.bridge.beams import place_in_document, placed_lattice
     from volfrep.jobs.beam_part import clipped_infill
-    from volfrep.process.worker import Call
 
-    clipped = run_job(
-        job_title("Struts of {label}", obj),
-        Call(clipped_infill, (solid, spec), {"cache": cache}),
-    )
+    title = job_title("Struts of {label}", obj)
+    clipped = run_job(title, clipped_infill, solid, spec, cache=cache)
     warn(obj, clipped.warnings)
     return replace(clipped, wireframe=placed_lattice(clipped.wireframe, place_in_document(obj)))
 
@@ -146,14 +143,11 @@ def beams_in_document(obj: App.DocumentObject) -> BeamModel:
     """
     from freecad_volfrep.bridge.beams import place_in_document, placed_beams
     from volfrep.jobs.beam_part import beam_model
-    from volfrep.process.worker import Call
 
     if not is_infill(obj):
         raise VolfrepError(f"'{obj.Label}' is a mesh without beams: export its mesh.")
     solid, spec, cache = obj.Proxy.inputs(obj)
-    model = run_job(
-        job_title("Beams of {label}", obj), Call(beam_model, (solid, spec), {"cache": cache})
-    )
+    model = run_job(job_title("Beams of {label}", obj), beam_model, solid, spec, cache=cache)
     return placed_beams(model, place_in_document(obj))
 
 
@@ -165,7 +159,6 @@ def write_pieces(obj: App.DocumentObject, path: str | os.PathLike[str], row: For
         Cancelled: in the window, by the user; no file is left behind.
     """
     from volfrep.output.sources import write_given
-    from volfrep.process.worker import Call
 
     made = pieces_of(obj, row)
     deck = for_solver(obj) if "material" in row.takes else None
@@ -173,8 +166,7 @@ def write_pieces(obj: App.DocumentObject, path: str | os.PathLike[str], row: For
     if TETRAHEDRA in row.needs:
         title = job_title("Tetrahedra of {label}", obj)
     with staged(path) as unfinished:
-        call = Call(write_given, (row.name, made, str(unfinished), deck))
-        written = run_job(title, call)
+        written = run_job(title, write_given, row.name, made, str(unfinished), deck)
     warn(obj, written.warnings)
 
 
@@ -246,7 +238,6 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
     from freecad_volfrep.bridge.trimmed import check_volume
     from freecad_volfrep.bridge.worker_calls import write_exact_lattice, write_exact_part
     from volfrep.io.write.step_faceted import write_step_faceted
-    from volfrep.process.worker import Call
     from volfrep.reports.estimate import estimate_faceted
 
     made_of = checked_ingredients(obj)
@@ -257,21 +248,20 @@ def _write_exact(obj: App.DocumentObject, path: str | os.PathLike[str]) -> None:
             if made_of.domain is None:
                 # Never built as a shape: its text is laid at every place.
                 lattice = placed_lattice(made_of.lattice, place)
-                call = Call(write_exact_lattice, (lattice, str(unfinished)))
-                volume = run_job(title, call, in_freecad=True)
+                file = str(unfinished)
+                volume = run_job(title, write_exact_lattice, lattice, file, in_freecad=True)
                 if job.expected is not None:
                     check_volume(volume, job.expected)
             else:
                 move = tuple(place.toMatrix().A)
-                call = Call(write_exact_part, (job, str(unfinished), move))
-                run_job(title, call, in_freecad=True)
+                run_job(title, write_exact_part, job, str(unfinished), move, in_freecad=True)
         warn(obj, made_of.warnings)
     except VolfrepError as error:
         mesh = mesh_in_document(obj)
         estimate_faceted(len(mesh.triangles))
+        title = job_title("Plane faces of {label}", obj)
         with staged(path) as unfinished:
-            call = Call(write_step_faceted, (mesh, str(unfinished)), has_progress=False)
-            run_job(job_title("Plane faces of {label}", obj), call)
+            run_job(title, write_step_faceted, mesh, str(unfinished), has_progress=False)
         warn(obj, (f"{error} The file holds plane faces instead of exact surfaces.",))
 
 
@@ -287,18 +277,14 @@ def beams_of(obj: App.DocumentObject, **options: Any) -> tuple[BeamMesh, np.ndar
         Cancelled: in the window, by the user.
     """
     from volfrep.fem.beam_mesh import fitted_beams
-    from volfrep.process.worker import Call
     from volfrep.trim.beam_model import deformed_struts
 
     clipped = axes_of(obj)
     spec = inputs_of(obj)[1]
-    call = Call(
-        fitted_beams,
-        (clipped.wireframe, clipped.on_boundary, spec.kind.cube, spec.cell_size),
-        options,
-        has_progress=False,
-    )
-    model, said = run_job(job_title("Beams of {label}", obj), call)
+    model, said = run_job(
+        job_title("Beams of {label}", obj), fitted_beams, clipped.wireframe, clipped.on_boundary,
+        spec.kind.cube, spec.cell_size, has_progress=False, **options,
+    )  # fmt: skip
     warn(obj, said + deformed_struts(spec.grid, spec.struts))
     return model, clipped.on_boundary
 
@@ -312,10 +298,9 @@ def tetrahedra_of(obj: App.DocumentObject) -> TetrahedralMesh:
     """
     from freecad_volfrep.bridge.solids import mesh_in_document
     from volfrep.jobs.beam_part import tetrahedra_of as made
-    from volfrep.process.worker import Call
 
     title = job_title("Tetrahedra of {label}", obj)
-    filled: TetrahedralMesh = run_job(title, Call(made, (mesh_in_document(obj),)))
+    filled: TetrahedralMesh = run_job(title, made, mesh_in_document(obj))
     for sentence in filled.warnings:
         App.Console.PrintWarning(report_line(obj.Label, sentence))
     return filled

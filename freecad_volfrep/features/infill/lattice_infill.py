@@ -11,7 +11,7 @@ import FreeCAD as App
 
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.jobs.job import Job, State
-from freecad_volfrep.features.jobs.progress import job_title, run_job
+from freecad_volfrep.features.jobs.progress import job_title, run_call
 from freecad_volfrep.features.jobs.screen import attach_view, is_asked_by_user, screen
 from freecad_volfrep.features.properties.quantities import set_value
 from freecad_volfrep.preferences import largest_automatic, triangles_drawn
@@ -259,7 +259,7 @@ class LatticeInfill:
         """What the job comes to, waited for."""
         job = self.job
         job.go(State.RUNNING)
-        forecast, filled = run_job(job.title, job.call)
+        forecast, filled = run_call(job.title, job.call)
         return forecast, filled, None if filled is None else loaded(filled)
 
     def _take(self, obj: App.DocumentObject, come: Come) -> None:

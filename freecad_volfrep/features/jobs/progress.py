@@ -7,8 +7,9 @@ cancel is thrown into it, and what was added to the document goes.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator, Mapping
 from contextlib import contextmanager
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import FreeCAD as App
@@ -31,20 +32,42 @@ def job_title(text: str, obj: App.DocumentObject) -> str:
     return str(translate("VolfrepJobs", text)).format(label=obj.Label)
 
 
-def run_job(title: str, call: Call, *, in_freecad: bool = False) -> Any:
-    """What a call of the engine returns or raises.
+def run_job(
+    title: str,
+    function: Callable[..., Any],
+    *arguments: Any,
+    in_freecad: bool = False,
+    has_progress: bool = True,
+    keeps_best: bool = False,
+    heard: Mapping[str, Callable[..., Any]] = MappingProxyType({}),
+    **keywords: Any,
+) -> Any:
+    """What a function of the engine, or of the workbench, returns or raises.
 
-    With a window it is made in a process of its own, and the window lives meanwhile. Without a
-    screen it is simply made, here.
+    With a window it is called in a process of its own, and the window lives meanwhile. Without a
+    screen it is simply called, here.
 
     Args:
         title: in the window.
-        call: of the engine, or of the workbench.
+        function: what is called.
+        *arguments: that it is given.
         in_freecad: whether it needs FreeCAD in that process, for OpenCASCADE.
+        has_progress: as of `Call`.
+        keeps_best: as of `Call`.
+        heard: as of `Call`.
+        **keywords: that it is given, too.
 
     Raises:
         Cancelled: in the window, by the user.
     """
+    from volfrep.process.worker import Call
+
+    call = Call(function, arguments, keywords, heard, keeps_best, has_progress)
+    return run_call(title, call, in_freecad)
+
+
+def run_call(title: str, call: Call, in_freecad: bool = False) -> Any:
+    """As `run_job`, of a call that is made up already."""
     window = screen()
     return call.here() if window is None else window.wait_for(title, call, in_freecad)
 

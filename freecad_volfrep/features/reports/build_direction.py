@@ -40,12 +40,11 @@ def find_directions(obj: App.DocumentObject, inclination: float) -> Orientations
     """
     require_engine()
     from freecad_volfrep.bridge.solids import SolidReader, mesh_in_document
-    from volfrep.process.worker import Call
     from volfrep.reports.orientation import orient
 
     mesh = mesh_in_document(obj) if is_infill(obj) else SolidReader().read(obj, App.Placement())
     title = job_title("Build direction of {label}", obj)
-    found: Orientations = run_job(title, Call(orient, (mesh, inclination)))
+    found: Orientations = run_job(title, orient, mesh, inclination)
     return found
 
 

@@ -30,14 +30,13 @@ def check_mesh(obj: App.DocumentObject) -> list[Table]:
     """
     require_engine()
     from freecad_volfrep.bridge.solids import mesh_in_document
-    from volfrep.process.worker import Call
     from volfrep.reports.mesh_report import checked_mesh
 
     if not obj.isDerivedFrom("Mesh::Feature") or not obj.Mesh.CountFacets:
         raise VolfrepError(f"'{obj.Label}' has no mesh to check: update it first.")
     said = tell_stale(obj)
     mesh = mesh_in_document(obj)
-    report, crossing = run_job(job_title("Checking {label}", obj), Call(checked_mesh, (mesh,)))
+    report, crossing = run_job(job_title("Checking {label}", obj), checked_mesh, mesh)
     return [
         Table(f"{obj.Label}: {_verdict(report, crossing)}", (*_stale(said), *report.rows())),
         Table("Triangles and the file's single precision", tuple(_precision(report))),

@@ -106,7 +106,6 @@ class PrintCheck(SavesNothing):
         from freecad_volfrep.bridge.solids import mesh_in_document, placed
         from volfrep.jobs.beam_part import struts_and_cavity
         from volfrep.jobs.figures.print_check import print_check
-        from volfrep.process.worker import Call
         from volfrep.reports.processes import find_process
 
         solid, spec, cache = infill.Proxy.inputs(infill)
@@ -114,21 +113,19 @@ class PrintCheck(SavesNothing):
             raise VolfrepError(f"'{infill.Label}' holds no lattice: set its Output to part.")
 
         title = job_title("Print check of {label}", infill)
-        struts, cavity = run_job(title, Call(struts_and_cavity, (solid, spec), {"cache": cache}))
+        struts, cavity = run_job(title, struts_and_cavity, solid, spec, cache=cache)
         place = place_in_document(infill)
-        call = Call(
+        report, hanging = run_job(
+            title,
             print_check,
-            (
-                mesh_in_document(infill),
-                placed_lattice(struts, place),
-                placed(cavity, place),
-                spec,
-                find_process(obj.Process),
-                tuple(obj.BuildDirection),
-            ),
+            mesh_in_document(infill),
+            placed_lattice(struts, place),
+            placed(cavity, place),
+            spec,
+            find_process(obj.Process),
+            tuple(obj.BuildDirection),
             has_progress=False,
         )
-        report, hanging = run_job(title, call)
         obj.Mesh = to_freecad(hanging)
         _write_results(obj, report)
 

@@ -110,7 +110,6 @@ def _lattices(
 def _lattice(obj: App.DocumentObject) -> dict[str, str]:
     from volfrep.jobs.figures.properties import lattice_properties
     from volfrep.mechanics.catalogue import known_properties
-    from volfrep.process.worker import Call
 
     try:
         _, spec, _ = obj.Proxy.inputs(obj)
@@ -125,8 +124,8 @@ def _lattice(obj: App.DocumentObject) -> dict[str, str]:
     if cell is not None:
         found = known_properties(cell, spec.cell_size, spec.strut_radius, material)
     if found is None:
-        call = Call(lattice_properties, (), {**given, "material": material}, has_progress=False)
-        found = run_job(job_title("Properties of the lattice of {label}", obj), call)
+        title = job_title("Properties of the lattice of {label}", obj)
+        found = run_job(title, lattice_properties, material=material, has_progress=False, **given)
     rows = dict(found.rows())
     return {name: rows[name] for name in rows if name not in ("cell", "material")}
 

@@ -440,7 +440,6 @@ def size_struts(
             the best.
     """
     from volfrep.jobs.sizing import size
-    from volfrep.process.worker import Call
 
     solid, spec, cache = obj.Proxy.wanted(obj)
     loads = loads_of(obj, analyses)
@@ -459,15 +458,9 @@ def size_struts(
         return True
 
     part = run_job(
-        job_title("Sizing {label}", obj),
-        Call(
-            size,
-            (solid, spec, loads, wanted),
-            {"prove_it": prove, "cache": cache},
-            heard={"watch": watch},
-            keeps_best=True,
-        ),
-    )
+        job_title("Sizing {label}", obj), size, solid, spec, loads, wanted,
+        prove_it=prove, cache=cache, heard={"watch": watch}, keeps_best=True,
+    )  # fmt: skip
     steps.append(_row(len(steps), part.sized.last, density))
     states = part.states
     return Outcome(part, states, density, tuple(steps), loads, solid)
@@ -588,14 +581,13 @@ def solve_struts(obj: App.DocumentObject) -> tuple[StrutState, ...]:
         Cancelled: in the window, by the user.
     """
     from volfrep.jobs.sizing import solve_struts
-    from volfrep.process.worker import Call
     from volfrep.sizing.strut_state import strut_states
 
     loads = loads_of(obj, analyses_of(obj))
     printing = printing_of(obj)
     solid, spec, cache = obj.Proxy.wanted(obj)
+    title = job_title("Struts of {label}", obj)
     model, analysis = run_job(
-        job_title("Struts of {label}", obj),
-        Call(solve_struts, (solid, spec, loads), {"printing": printing, "cache": cache}),
+        title, solve_struts, solid, spec, loads, printing=printing, cache=cache
     )
     return strut_states(model.problem, analysis)

@@ -311,7 +311,6 @@ def run_study(obj: App.DocumentObject) -> bool:
         VolfrepError: the study makes no sense; the last table stays.
     """
     require_engine()
-    from volfrep.process.worker import Call
     from volfrep.studies.running.executors import state_text
     from volfrep.studies.sweep import sweep
 
@@ -322,15 +321,12 @@ def run_study(obj: App.DocumentObject) -> bool:
     try:
         made = run_job(
             job_title("Studying {label}", obj.Infill),
-            Call(
-                sweep,
-                (study, folder),
-                {
-                    "workers": 1 if python is None else None,
-                    "interpreter": python,
-                    "words": partial(state_text, text=_words()),
-                },
-            ),
+            sweep,
+            study,
+            folder,
+            workers=1 if python is None else None,
+            interpreter=python,
+            words=partial(state_text, text=_words()),
         )
     except Cancelled:
         obj.Status = CANCELLED

@@ -99,7 +99,6 @@ class CellProperties(QtWidgets.QWidget):
     def compute(self) -> None:
         """Homogenise the cell; says here what is wrong with the values."""
         from volfrep.jobs.figures.properties import lattice_properties
-        from volfrep.process.worker import Call
 
         cell, size = self._cell, self._size("CellSize")
         assert cell is not None
@@ -107,8 +106,7 @@ class CellProperties(QtWidgets.QWidget):
         given["material"] = self._material.currentData()
         title = translate(_CONTEXT, "Properties of {name}").format(name=cell.name)
         try:
-            call = Call(lattice_properties, (cell, size), given, has_progress=False)
-            found = run_job(title, call)
+            found = run_job(title, lattice_properties, cell, size, has_progress=False, **given)
         except VolfrepError as error:
             self._figures.setText(html.escape(localise(str(error))))
         except Cancelled:

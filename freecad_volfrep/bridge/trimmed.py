@@ -8,7 +8,6 @@ the volume of the same part as a mesh.
 from __future__ import annotations
 
 import os
-from pathlib import Path
 
 import FreeCAD as App
 import Part
@@ -17,7 +16,7 @@ from volfrep.grid.strut_graph import Wireframe
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.reports.estimate import refuse_boundary
 from volfrep.util.errors import VolfrepError
-from volfrep.util.files import replacing
+from volfrep.util.files import staged
 from volfrep.util.progress import Monitor
 
 from .exact import exact_lattice, silence, without_surface_curves
@@ -133,14 +132,8 @@ def write_shape(shape: Part.Shape, path: str | os.PathLike[str]) -> None:
     Raises:
         VolfrepError: the path cannot be written.
     """
-    with replacing(path) as file:
-        unfinished = Path(file.name).with_suffix(".step")
-        try:
-            with without_surface_curves(), silence():
-                shape.exportStep(str(unfinished))
-            file.write(unfinished.read_bytes())
-        finally:
-            unfinished.unlink(missing_ok=True)
+    with staged(path) as unfinished, without_surface_curves(), silence():
+        shape.exportStep(str(unfinished))
 
 
 def _one_solid(shape: Part.Shape) -> Part.Shape:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Generator
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
@@ -14,7 +13,7 @@ import numpy as np
 from freecad_volfrep.features.jobs.progress import all_or_nothing, go_through, job_title, run_job
 from freecad_volfrep.translation import translate
 from volfrep.util.errors import VolfrepError
-from volfrep.util.files import replacing
+from volfrep.util.files import staged
 
 from .exact import Ingredients, exact_job, ingredients_of, warn
 
@@ -137,14 +136,8 @@ def write_instances(obj: App.DocumentObject, path: str | os.PathLike[str]) -> No
     try:
         group = make_instances(temporary, obj)
         temporary.recompute()
-        with replacing(path) as file:
-            unfinished = Path(file.name).with_suffix(".step")
-            try:
-                with without_surface_curves(), silence():
-                    Import.export([group], str(unfinished))
-                file.write(unfinished.read_bytes())
-            finally:
-                unfinished.unlink(missing_ok=True)
+        with staged(path) as unfinished, without_surface_curves(), silence():
+            Import.export([group], str(unfinished))
     finally:
         App.closeDocument(temporary.Name)
         if active is not None:

@@ -36,6 +36,7 @@ _TABLES = {
     "Colour": ("VolfrepPreferences", (1, 2)),
     "Property": ("App::Property", (2, 3)),
     "result": ("App::Property", (2,)),
+    "wants": ("VolfrepCommands", (0,)),
 }
 _HEAD = """<?xml version="1.0" encoding="utf-8"?>
 <!-- SPDX-License-Identifier: LGPL-2.1-or-later -->

@@ -3,43 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any, TypeVar
+
 import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
 
-#: What the functions below look for, as sentences for who has not selected it.
-A_SOLID = QT_TRANSLATE_NOOP(
-    "VolfrepCommands", "Select one or more solids: a Body, a Part, a link to one, a closed mesh."
-)
-AN_INFILL = QT_TRANSLATE_NOOP("VolfrepCommands", "Select one lattice infill.")
-A_SOLID_OR_SLICER_INFILL = QT_TRANSLATE_NOOP(
-    "VolfrepCommands",
-    "Select one solid, with Ctrl a FEM result or sized lattice infill, or one slicer infill.",
-)
-AN_INFILL_IN_VIEW = QT_TRANSLATE_NOOP(
-    "VolfrepCommands", "Select one lattice infill that has a solid, with its 3D view in front."
-)
-AN_INFILL_OR_SOLID_IN_VIEW = QT_TRANSLATE_NOOP(
-    "VolfrepCommands",
-    "Select one lattice infill that has a solid, or one solid, with its 3D view in front.",
-)
-AN_INFILL_AND_FACES = QT_TRANSLATE_NOOP(
-    "VolfrepCommands", "Select one lattice infill and, with Ctrl, faces of its solid."
-)
-AN_INFILL_OR_STUDY = QT_TRANSLATE_NOOP(
-    "VolfrepCommands", "Select one lattice infill or one design study."
-)
-SOME_INFILLS = QT_TRANSLATE_NOOP(
-    "VolfrepCommands", "There is no lattice infill in this document: make one first."
-)
-A_MESH = QT_TRANSLATE_NOOP(
-    "VolfrepCommands", "Select one lattice infill that is computed, or one mesh."
-)
-
-A_COMPUTED_INFILL_IN_VIEW = QT_TRANSLATE_NOOP(
-    "VolfrepCommands", "Select one lattice infill that is computed, with its 3D view in front."
-)
+_Find = TypeVar("_Find", bound=Any)
 
 #: Of what is selected and has surfaces only, by whether these are closed.
 _OPEN = QT_TRANSLATE_NOOP(
@@ -51,6 +23,21 @@ _CLOSED = QT_TRANSLATE_NOOP(
     "VolfrepCommands",
     "'{label}' is a closed surface and not a solid yet: convert it (Part > Convert to solid).",
 )
+
+
+def wants(text: str, explain: Callable[[], str] = str) -> Callable[[_Find], _Find]:
+    """Say with a function below what it looks for, to who has not selected it.
+
+    Args:
+        text: a sentence, which ``make translations`` looks for.
+        explain: in its place, what is wrong with what is selected; empty for nothing.
+    """
+
+    def said(find: _Find) -> _Find:
+        find.why_not = lambda: explain() or str(translate("VolfrepCommands", text))
+        return find
+
+    return said
 
 
 def why_no_solid() -> str:
@@ -98,6 +85,7 @@ def only_shown_solid() -> list[App.DocumentObject]:
     return list(found)
 
 
+@wants("Select one lattice infill that is computed, or one mesh.")
 def selected_mesh() -> App.DocumentObject | None:
     """The selected mesh object, if it is the only selection and not empty."""
     selected = Gui.Selection.getSelection()
@@ -106,6 +94,7 @@ def selected_mesh() -> App.DocumentObject | None:
     return selected[0] if selected[0].Mesh.CountFacets else None
 
 
+@wants("Select one lattice infill and, with Ctrl, faces of its solid.")
 def selected_infill_and_faces() -> (
     tuple[App.DocumentObject, list[tuple[App.DocumentObject, tuple[str, ...]]]] | None
 ):
@@ -123,6 +112,7 @@ def selected_infill_and_faces() -> (
     return (infills[0], faces) if len(infills) == 1 and faces else None
 
 
+@wants("Select one lattice infill.")
 def selected_infill() -> App.DocumentObject | None:
     """The selected lattice infill, if it is the only selection."""
     from freecad_volfrep.features.infill.lattice_infill import is_infill
@@ -131,6 +121,7 @@ def selected_infill() -> App.DocumentObject | None:
     return found if found is not None and is_infill(found) else None
 
 
+@wants("Select one lattice infill or one design study.")
 def selected_infill_or_study() -> App.DocumentObject | None:
     """The selected lattice infill or design study, if it is the only selection."""
     from freecad_volfrep.features import DesignStudy, LatticeInfill
@@ -150,6 +141,7 @@ def selected_with_edges() -> list[App.DocumentObject] | None:
     return selected if selected and all(map(has_edges, selected)) else None
 
 
+@wants("There is no lattice infill in this document: make one first.")
 def selected_or_all_infills() -> list[App.DocumentObject] | None:
     """The selected lattice infills, or all of the document's where none is selected."""
     from freecad_volfrep.features.reports.statistics import infills_of
@@ -161,6 +153,7 @@ def selected_or_all_infills() -> list[App.DocumentObject] | None:
     return selected or known or None
 
 
+@wants("Select one lattice infill that has a solid, with its 3D view in front.")
 def infill_in_view() -> App.DocumentObject | None:
     """The selected lattice infill, if a 3D view is in front that it can be shown in."""
     infill = selected_infill()
@@ -170,6 +163,10 @@ def infill_in_view() -> App.DocumentObject | None:
     return infill if hasattr(view, "getSceneGraph") else None
 
 
+@wants(
+    "Select one lattice infill that has a solid, or one solid, with its 3D view in front.",
+    why_no_solid,
+)
 def infill_or_solid_in_view() -> App.DocumentObject | None:
     """The same, or one solid that can be filled: the selected one or the only one there is."""
     view = None if Gui.activeDocument() is None else Gui.activeDocument().activeView()
@@ -181,6 +178,7 @@ def infill_or_solid_in_view() -> App.DocumentObject | None:
     return solids[0] if len(solids) == 1 else None
 
 
+@wants("Select one lattice infill that is computed, with its 3D view in front.")
 def infill_with_mesh() -> App.DocumentObject | None:
     """The same, if it has a mesh."""
     infill = infill_in_view()

@@ -31,13 +31,11 @@ class Command:
         text: of the menu.
         tip: of the button.
         keys: shortcut as FreeCAD writes it, or nothing; none of FreeCAD's own.
-        selected: what of the selection the command works on, or None.
+        selected: what of the selection the command works on, or None; says why (`wants`).
         act: is called with that.
-        wanted: a sentence on what has to be there for `selected` to find something.
         computes: whether it needs the engine's packages.
         of_mesh: whether it uses the mesh of what is selected, so that one which is out of date is
             asked about: ``as it is`` may be, or ``fresh`` only; empty where it does not.
-        explain: in place of `wanted`, what is wrong with what is selected; empty for nothing.
     """
 
     name: str
@@ -47,10 +45,8 @@ class Command:
     keys: str
     selected: Callable[[], Any]
     act: Callable[[Any], None]
-    wanted: str = ""
     computes: bool = True
     of_mesh: str = ""
-    explain: Callable[[], str] = str
 
     def GetResources(self) -> dict[str, str]:  # noqa: N802
         """Icon, texts, shortcut, and the address of the help page."""
@@ -74,7 +70,7 @@ class Command:
         if Gui.Control.activeDialog():
             return str(translate("VolfrepCommands", PANEL_OPEN))
         if self.selected() is None:
-            return self.explain() or str(translate("VolfrepCommands", self.wanted))
+            return self.selected.why_not()
         return ""
 
     def Activated(self) -> None:  # noqa: N802

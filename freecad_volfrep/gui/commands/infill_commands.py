@@ -13,7 +13,7 @@ from freecad_volfrep.deps import missing_packages
 from freecad_volfrep.features.infill.factory import make_lattice_infill, preferred_values
 from freecad_volfrep.gui.jobs.updating import begin_update, show_mesh
 from freecad_volfrep.gui.messages import ask, errors_shown, tell
-from freecad_volfrep.gui.selection import only_solid, selected_solids
+from freecad_volfrep.gui.selection import only_solid, selected_solids, wants, why_no_solid
 from freecad_volfrep.gui.undo import undo_step
 from freecad_volfrep.gui.view.preview_only import toggle_preview
 from freecad_volfrep.translation import translate
@@ -22,6 +22,10 @@ from freecad_volfrep.translation import translate
 ISOMETRIC = (45.0, 54.7356)
 
 
+@wants(
+    "Select one or more solids: a Body, a Part, a link to one, a closed mesh.",
+    why_no_solid,
+)
 def fillable_selection() -> list[App.DocumentObject] | None:
     """The selected solids, or the only one there is; where packages are missing anything selected.
 

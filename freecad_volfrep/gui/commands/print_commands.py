@@ -9,10 +9,20 @@ import FreeCADGui as Gui
 from freecad_volfrep.bridge.solids import is_fillable, resolve_base
 from freecad_volfrep.features.infill.lattice_infill import is_infill
 from freecad_volfrep.gui.messages import errors_shown
-from freecad_volfrep.gui.selection import only_shown_solid, only_solid, selected_solids
+from freecad_volfrep.gui.selection import (
+    only_shown_solid,
+    only_solid,
+    selected_solids,
+    wants,
+    why_no_solid,
+)
 from freecad_volfrep.translation import translate
 
 
+@wants(
+    "Select one solid, with Ctrl a FEM result or sized lattice infill, or one slicer infill.",
+    why_no_solid,
+)
 def solid_or_slicer_infill() -> App.DocumentObject | None:
     """The selected slicer infill; else the one solid that is selected, or the only one there is.
 

@@ -9,16 +9,6 @@ from __future__ import annotations
 import FreeCADGui as Gui
 
 from freecad_volfrep.gui.selection import (
-    A_COMPUTED_INFILL_IN_VIEW,
-    A_MESH,
-    A_SOLID,
-    A_SOLID_OR_SLICER_INFILL,
-    AN_INFILL,
-    AN_INFILL_AND_FACES,
-    AN_INFILL_IN_VIEW,
-    AN_INFILL_OR_SOLID_IN_VIEW,
-    AN_INFILL_OR_STUDY,
-    SOME_INFILLS,
     infill_in_view,
     infill_or_solid_in_view,
     infill_with_mesh,
@@ -27,7 +17,6 @@ from freecad_volfrep.gui.selection import (
     selected_infill_or_study,
     selected_mesh,
     selected_or_all_infills,
-    why_no_solid,
 )
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP
 
@@ -83,8 +72,6 @@ _TABLE = (
         "L, F",
         fillable_selection,
         fill_solids,
-        A_SOLID,
-        explain=why_no_solid,
     ),
     Command(
         "VOLFREP_Edit",
@@ -94,7 +81,6 @@ _TABLE = (
         "L, D",
         selected_infill,
         edit_infill,
-        AN_INFILL,
     ),
     Command(
         "VOLFREP_PreviewOnly",
@@ -105,7 +91,6 @@ _TABLE = (
         "L, W",
         infill_in_view,
         preview_only,
-        AN_INFILL_IN_VIEW,
     ),
     Command(
         "VOLFREP_Update",
@@ -115,7 +100,6 @@ _TABLE = (
         "L, U",
         selected_infill,
         update_infill,
-        AN_INFILL,
     ),
     Command(
         "VOLFREP_OpenFaces",
@@ -125,7 +109,6 @@ _TABLE = (
         "L, O",
         selected_infill_and_faces,
         open_faces,
-        AN_INFILL_AND_FACES,
     ),
     Command(
         "VOLFREP_CellLibrary",
@@ -146,8 +129,6 @@ _TABLE = (
         "L, G",
         solid_or_slicer_infill,
         slicer_infill,
-        A_SOLID_OR_SLICER_INFILL,
-        explain=why_no_solid,
     ),
     Command(
         "VOLFREP_Coupons",
@@ -158,7 +139,6 @@ _TABLE = (
         "L, K",
         selected_infill,
         make_specimens,
-        AN_INFILL,
     ),
     Command(
         "VOLFREP_Orient",
@@ -169,9 +149,7 @@ _TABLE = (
         "L, J",
         infill_or_solid_in_view,
         orient_part,
-        AN_INFILL_OR_SOLID_IN_VIEW,
         of_mesh="as it is",
-        explain=why_no_solid,
     ),
     Command(
         "VOLFREP_CheckMesh",
@@ -182,7 +160,6 @@ _TABLE = (
         "L, M",
         selected_mesh,
         report_mesh,
-        A_MESH,
         of_mesh="as it is",
     ),
     Command(
@@ -194,7 +171,6 @@ _TABLE = (
         "L, P",
         selected_infill,
         check_print,
-        AN_INFILL,
         of_mesh="fresh",
     ),
     Command(
@@ -206,7 +182,6 @@ _TABLE = (
         "L, N",
         selected_mesh,
         show_section,
-        A_MESH,
     ),
     Command(
         "VOLFREP_SolidBeside",
@@ -216,7 +191,6 @@ _TABLE = (
         "L, Q",
         infill_in_view,
         show_beside,
-        AN_INFILL_IN_VIEW,
     ),
     Command(
         "VOLFREP_ColourBy",
@@ -227,7 +201,6 @@ _TABLE = (
         "L, B",
         infill_with_mesh,
         colour_infill,
-        A_COMPUTED_INFILL_IN_VIEW,
         of_mesh="fresh",
     ),
     Command(
@@ -239,7 +212,6 @@ _TABLE = (
         "L, T",
         selected_or_all_infills,
         show_statistics,
-        SOME_INFILLS,
         of_mesh="as it is",
     ),
     Command(
@@ -251,7 +223,6 @@ _TABLE = (
         "L, X",
         selected_mesh,
         export,
-        A_MESH,
         of_mesh="as it is",
     ),
     Command(
@@ -263,7 +234,6 @@ _TABLE = (
         "L, S",
         selected_mesh,
         make_solid_of,
-        A_MESH,
         of_mesh="as it is",
     ),
     Command(
@@ -275,7 +245,6 @@ _TABLE = (
         "L, A",
         selected_infill,
         analyse,
-        AN_INFILL,
         of_mesh="fresh",
     ),
     Command(
@@ -287,8 +256,6 @@ _TABLE = (
         "L, Z",
         infill_or_solid_in_view,
         size_lattice,
-        AN_INFILL_OR_SOLID_IN_VIEW,
-        explain=why_no_solid,
     ),
     Command(
         "VOLFREP_StrutResults",
@@ -299,7 +266,6 @@ _TABLE = (
         "L, R",
         infill_in_view,
         show_strut_results,
-        AN_INFILL_IN_VIEW,
     ),
     Command(
         "VOLFREP_DesignStudy",
@@ -310,7 +276,6 @@ _TABLE = (
         "L, Y",
         selected_infill_or_study,
         study_designs,
-        AN_INFILL_OR_STUDY,
     ),
     Command(
         "VOLFREP_Help",

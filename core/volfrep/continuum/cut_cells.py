@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cells that a wall cuts: how much of each of their struts is left, beside how much of the cell.
 
-As a homogenised solid a cell has its stiffness all over. Struts lie in places: where a skin takes
-the layer that holds a cell's face, the struts in that face are gone, whatever the layer's share of
-the cell is. So the stiffness of a cut cell follows what its struts, moved as the solid is, would
-have in what is left of them, over what they would have by the cell's share.
+As a homogenised solid a cell has its stiffness and mass all over. Struts lie in places: where a
+skin takes the layer that holds a cell's face, the struts in that face are gone, whatever the
+layer's share of the cell is. So the stiffness of a cut cell follows what its struts, moved as the
+solid is, would have in what is left of them, over what they would have by the cell's share; and its
+mass, and how it leads heat, the length of struts that is left.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -29,19 +31,36 @@ _HALF = 4.0 / (3.0 * np.pi)
 Filled = Callable[[Floats], Floats]
 
 
-def cut_factors(cell: UnitCell, ratio: float, places: Ints, filled: Filled) -> Floats:
-    """What walls make of cells' stiffness.
+@dataclass(frozen=True, eq=False)
+class CutCells:
+    """What walls leave of cells, beside what their shares of these would be.
+
+    Attributes:
+        stiffness: (k, 6, 6) symmetric, Voigt: a tensor's root times this times its root is the cut
+            cell's, over its share.
+        mass: (k,) of the struts that are left, over their share.
+    """
+
+    stiffness: Floats
+    mass: Floats
+
+    def means(self, rows: Ints, weights: Floats) -> CutCells:
+        """(e,) means of the cells in (e, n) rows, by (e, n) weights."""
+        weights = weights / weights.sum(axis=1)[:, None]
+        stiffness: Floats = np.einsum("en,enab->eab", weights, self.stiffness[rows])
+        return CutCells(stiffness, (weights * self.mass[rows]).sum(axis=1))
+
+
+def cut_cells(cell: UnitCell, ratio: float, places: Ints, filled: Filled) -> CutCells:
+    """What walls leave of cells.
 
     Args:
         cell: the unit cell, a cube.
         ratio: radius of its struts over L.
         places: (k, 3) the cells.
         filled: what the walls have left.
-
-    Returns:
-        (k, 6, 6) symmetric, Voigt: a tensor's root times this times its root is the cut cell's.
     """
-    result = np.tile(np.eye(6), (len(places), 1, 1))
+    stiffness, mass = np.tile(np.eye(6), (len(places), 1, 1)), np.ones(len(places))
     near = np.stack(np.meshgrid(*[(0.01, 0.5, 0.99)] * 3), axis=-1).reshape(-1, 3)
     seen = _filled_at(places, near, filled)
     cut = np.flatnonzero((seen < 1.0).any(axis=1) & (seen > 0.0).any(axis=1))
@@ -52,7 +71,7 @@ def cut_factors(cell: UnitCell, ratio: float, places: Ints, filled: Filled) -> F
         left[rows] = _filled_at(places[cut[rows]], points, filled).mean(axis=1)
     cut, left = cut[left > _LEAST], left[left > _LEAST]
     if not len(cut):
-        return result
+        return CutCells(stiffness, mass)
     ends = cell.nodes[cell.struts]
     span = ends[:, 1] - ends[:, 0]
     length = np.linalg.norm(span, axis=1)
@@ -70,9 +89,10 @@ def cut_factors(cell: UnitCell, ratio: float, places: Ints, filled: Filled) -> F
     values, vectors = np.linalg.eigh(own.sum(axis=0))
     root = (vectors / np.sqrt(values)) @ vectors.T
     held = _filled_at(places[cut], at, filled).reshape(len(cut), len(ends), LOOKS).mean(axis=2)
-    rest = np.einsum("km,mab->kab", held / left[:, None], own)
-    result[cut] = root @ rest @ root
-    return result
+    held /= left[:, None]
+    stiffness[cut] = root @ np.einsum("km,mab->kab", held, own) @ root
+    mass[cut] = held @ volume / volume.sum()
+    return CutCells(stiffness, mass)
 
 
 def _filled_at(places: Ints, points: Floats, filled: Filled) -> Floats:
@@ -82,7 +102,7 @@ def _filled_at(places: Ints, points: Floats, filled: Filled) -> Floats:
 
 
 def cut_tensors(tensors: Floats, factors: Floats) -> Floats:
-    """(k, 6, 6) or (1, 6, 6) tensors of whole cells, those of cells cut by (k, 6, 6) factors."""
+    """(k, 6, 6) of cut cells: of (k, 6, 6) or (1, 6, 6) whole ones, by `CutCells.stiffness`."""
     values, vectors = np.linalg.eigh(tensors)
     root = (vectors * np.sqrt(np.maximum(values, 0.0))[:, None]) @ vectors.swapaxes(1, 2)
     result: Floats = root @ factors @ root

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A homogenised part as a CalculiX deck: bricks, orthotropic or anisotropic materials, loads.
 
-Bricks that are filled alike share a material, to `STEPS` steps of what fills them and of the
-lattice's stiffness; of skin and lattice in one brick it is the mean of both by what they fill.
+Bricks that are filled alike share a material, their mean, to `STEPS` steps of what fills them and
+`FINE` ones of the lattice's stiffness; of skin and lattice in one brick it is the mean of both by
+what they fill.
 CalculiX bends its C3D8I as it should, one brick across or more.
 """
 
@@ -18,13 +19,15 @@ from ..mechanics.elements import solid_stiffness
 from ..util.files import replacing
 from ..util.types import Floats
 from ..voxels.loaded import VoxelCase
+from .bricks import constants
 from .cell_law import turned
 from .model import ContinuumModel
 
-#: Shares of a brick, and logarithms of the lattice's stiffness, are told apart in so many steps.
+#: Shares of a brick are told apart in so many steps; the lattice's constants by so much, those
+#: beside the diagonal over what is on it.
 STEPS, FINE = 25, 0.02
 #: What is coupled less than this share of the largest is not: then the material is orthotropic.
-_NOTHING = 1e-9
+_NOTHING = 1e-6
 #: CalculiX's corners of a brick, of ours with z fastest.
 _CORNERS = [0, 4, 6, 2, 1, 5, 7, 3]
 #: Ours in CalculiX's order of axes: xx, yy, zz, xy, xz, yz.
@@ -55,8 +58,12 @@ def _parts(model: ContinuumModel, cases: Sequence[VoxelCase]) -> Iterator[bytes]
     count = len(model.elements.nodes)
     own, hard = model.shares.lattice.mean(axis=1), model.shares.solid.mean(axis=1)
     frames = np.broadcast_to(model.frames, (count, 3, 3))
-    lattice = np.broadcast_to(model.lattice, (count, 6, 6))
-    stiff = np.log(np.maximum(np.einsum("kii->k", lattice), 1e-30))
+    lattice = turned(model.lattice, model.frames.swapaxes(1, 2))
+    size = np.sqrt(np.maximum(np.einsum("kii->ki", lattice), 1e-30))
+    beside = constants(lattice / (size[:, :, None] * size[:, None]))
+    lattice = np.broadcast_to(lattice, (count, 6, 6))
+    density = np.broadcast_to(model.density, count)
+    stiff = np.broadcast_to(np.column_stack([2.0 * np.log(size), beside]), (count, 27))
     key = np.column_stack(
         [np.round(own * STEPS), np.round(hard * STEPS), np.round(stiff / FINE),
          np.round(frames.reshape(-1, 9) / FINE)]
@@ -66,19 +73,18 @@ def _parts(model: ContinuumModel, cases: Sequence[VoxelCase]) -> Iterator[bytes]
     order = np.argsort(group, kind="stable")
     solid = solid_stiffness(model.material.young, model.material.poisson)
     corners = model.elements.nodes[:, _CORNERS] + 1
-    density = model.material.density * 1e-9
     ends = np.cumsum(np.bincount(group))[:-1]
     for k, rows in enumerate(np.split(order, ends)):
-        row, own_k, hard_k = first[k], float(own[rows].mean()), float(hard[rows].mean())
-        frame = frames[row]
-        local = turned(lattice[row][None], frame.T[None])[0]
+        filled, hard_k = own[rows], float(hard[rows].mean())
+        frame = frames[first[k]]
+        local = np.einsum("k,kab->ab", filled, lattice[rows]) / len(rows)
         yield f"*ELEMENT,TYPE=C3D8I,ELSET=E{k}\n".encode()
         yield "".join(
             f"{e + 1}," + ",".join(map(str, c)) + "\n"
             for e, c in zip(rows.tolist(), corners[rows].tolist(), strict=True)
         ).encode()
-        yield _material(k, own_k * local + hard_k * solid, frame)
-        weight = density * (hard_k + own_k * float(np.broadcast_to(model.density, count)[row]))
+        yield _material(k, local + hard_k * solid, frame)
+        weight = model.material.density * 1e-9 * (hard_k + float((filled * density[rows]).mean()))
         yield f"*DENSITY\n{weight:.6g}\n".encode()
         yield f"*SOLID SECTION,ELSET=E{k},MATERIAL=M{k},ORIENTATION=O{k}\n".encode()
     yield b"*BOUNDARY\n"

@@ -47,12 +47,15 @@ class ContinuumModel:
         bricks: their integrals.
         shares: what fills them.
         matrices: (e, 24, 24) float32 N/mm.
-        lattice: (e, 6, 6) or (1, 6, 6) of the lattice, in the part's axes, MPa.
+        lattice: (e, 6, 6) or (1, 6, 6) of the lattice, in the part's axes, MPa; where a wall cuts
+            cells, of what is left of them, over their share.
+        whole: (e, 6, 6) or (1, 6, 6) of the lattice of whole cells: struts that are left of a cut
+            one are strained as theirs are.
         frames: (e, 3, 3) or (1, 3, 3) whose columns are the cells' axes.
         thickness: (e,) or (1,) mm, radii of struts, thicknesses or offsets of walls.
-        density: (e,) or (1,) of the lattice, relative.
+        density: (e,) or (1,) of the lattice, relative, of cut cells as `lattice` is.
         strength: (e, 2) or (1, 2) of the lattice along its edges and in shear, over the solid's.
-        conductivity: (e,) or (1,) of the lattice over the solid's.
+        conductivity: (e,) or (1,) of the lattice over the solid's, of cut cells as `lattice` is.
         pressed: (e, m, 6) or (1, m, 6) of the cell law; None where it has none.
         material: the solid.
         loaded: takes loads to the nodes.
@@ -68,6 +71,7 @@ class ContinuumModel:
     shares: Shares
     matrices: Floats
     lattice: Floats
+    whole: Floats
     frames: Floats
     thickness: Floats
     density: Floats
@@ -91,8 +95,8 @@ class ContinuumModel:
         return middle
 
     def cell_stress(self, own: Floats) -> Floats:
-        """(e, 6) MPa of the lattice in the cells' axes, from (e, 24) displacements."""
-        stress = (self.lattice @ (own @ self.middle.T)[:, :, None])[:, :, 0]
+        """(e, 6) MPa of whole cells in their axes, from (e, 24) displacements."""
+        stress = (self.whole @ (own @ self.middle.T)[:, :, None])[:, :, 0]
         return in_cell(stress, np.broadcast_to(self.frames, (len(own), 3, 3)))
 
     def at_nodes(self, each: Floats) -> Floats:

@@ -280,7 +280,7 @@ def _use_slopes(model: ContinuumModel, own: Floats) -> Floats:
         [in_cell(np.broadcast_to(one, (len(frames), 6)), frames) for one in np.eye(6)], axis=2
     )
     back = np.einsum("ek,ekj->ej", rise, local)
-    result: Floats = (model.lattice @ back[:, :, None])[:, :, 0] @ model.middle
+    result: Floats = (model.whole @ back[:, :, None])[:, :, 0] @ model.middle
     return result
 
 

@@ -12,7 +12,7 @@ from scipy.ndimage import map_coordinates
 from ..continuum.border import border_bars
 from ..continuum.bricks import Bricks, Shares, add_bars, bar_conductances, constants
 from ..continuum.cell_law import CellLaw, pressed_struts, split, stretched_tensors, turned
-from ..continuum.cut_cells import cut_factors, cut_tensors
+from ..continuum.cut_cells import CutCells, cut_cells, cut_tensors
 from ..continuum.model import (
     ContinuumModel,
     cells_across,
@@ -84,7 +84,7 @@ class PartBricks:
         self.bricks = Bricks(edge, bending=not _is_whole(infill))
         self.middles = (self.place + 0.5) * edge + self.low
         self._body = surface_body(infill.solid, float(edge.max()))
-        self._cut = self._cut_factors(filled)
+        self.cut = self._cut_cells(filled)
 
     def model(
         self, thickness_at: Callable[[Floats], Floats], *, graded: bool = True
@@ -99,11 +99,14 @@ class PartBricks:
         spec, edge, shares, material = infill.spec, self.bricks.edge, self.shares, self.material
         thickness = thickness_at(self.middles) if graded else law.thickness[:1]
         own, frames, thickness = _lattice(infill, law, self.middles, thickness)
-        lattice = turned(own, frames)
+        whole = turned(own, frames)
         skin = constants(solid_stiffness(material.young, material.poisson))
-        held = lattice if self._cut is None else turned(cut_tensors(own, self._cut), frames)
-        matrices = bricks.matrices(shares, material.young * constants(held), skin)
-        filled = (shares.lattice * _of(law.at(law.density, thickness)) + shares.solid).mean(axis=1)
+        lattice = (
+            whole if self.cut is None else turned(cut_tensors(own, self.cut.stiffness), frames)
+        )
+        matrices = bricks.matrices(shares, material.young * constants(lattice), skin)
+        density = self.density_at(thickness)
+        filled = (shares.lattice * density[:, None] + shares.solid).mean(axis=1)
         border = None
         if _is_whole(infill) and spec.kind.cube is not None:
             more, border = _add_border(
@@ -117,14 +120,22 @@ class PartBricks:
         all_lattice[tuple(place.T)] = shares.lattice.mean(axis=1)
         return ContinuumModel(
             self.size, self.low, self.elements, bricks, shares, matrices,
-            material.young * lattice, frames, thickness, law.at(law.density, thickness),
-            law.at(law.strength, thickness), law.at(law.conductivity, thickness),
+            material.young * lattice, material.young * whole, frames, thickness, density,
+            law.at(law.strength, thickness), self._left(law.at(law.conductivity, thickness)),
             _pressed(infill, law, thickness), material, weighing,
             cells_across(all_lattice, edge, spec.cell_size), border,
         )  # fmt: skip
 
-    def _cut_factors(self, filled: Floats) -> Floats | None:
-        """(e, 6, 6) of `continuum.cut_cells`, means of those in each brick; None without struts.
+    def density_at(self, thickness: Floats) -> Floats:
+        """(e,) or (1,) of the lattice of (e,) or (1,) thicknesses, relative, where it is there."""
+        return self._left(self.law.at(self.law.density, thickness))
+
+    def _left(self, column: Floats) -> Floats:
+        """What is as much as there is of struts, of whole cells and then of cut ones."""
+        return column if self.cut is None else column * self.cut.mass
+
+    def _cut_cells(self, filled: Floats) -> CutCells | None:
+        """Of each brick, means of its cells; None without struts.
 
         Args:
             filled: shares of lattice of all parts of all bricks.
@@ -154,10 +165,8 @@ class PartBricks:
         places = np.floor((points - cells.origin) / length).astype(np.int64)
         places, kind = np.unique(places, axis=0, return_inverse=True)
         ratio = float(self.law.thickness.mean()) / length
-        factors = cut_factors(cell, ratio, places, filled_at)[kind.ravel()].reshape(-1, 8, 6, 6)
-        weights = weights / weights.sum(axis=1)[:, None]
-        found: Floats = np.einsum("ek,ekab->eab", weights, factors)
-        return found
+        found = cut_cells(cell, ratio, places, filled_at)
+        return found.means(kind.reshape(-1, 8), weights)
 
 
 def _pressed(infill: Infill, law: CellLaw, thickness: Floats) -> Floats | None:
@@ -165,10 +174,6 @@ def _pressed(infill: Infill, law: CellLaw, thickness: Floats) -> Floats | None:
     if law.pressed is None or (mapping is not None and not mapping.is_rigid):
         return None
     return law.at(law.pressed, thickness)
-
-
-def _of(values: Floats) -> Floats:
-    return values[:, None] if values.ndim == 1 else values
 
 
 def _is_whole(infill: Infill) -> bool:

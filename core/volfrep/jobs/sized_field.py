@@ -204,16 +204,16 @@ def size_field(
     infill = Infill(solid, wanted, monitor=monitor, cache=cache)
     part = PartBricks(infill, loads, cell_law(wanted), element)
     edge = float(part.bricks.edge.max())
-    law, share = part.law, part.shares.lattice.mean(axis=1)
+    share = part.shares.lattice.mean(axis=1)
     reach = max(CELLS * spec.cell_size, BRICKS * edge)
     first = part.model(lambda at: np.full(len(at), start))
     brick = float(np.prod(part.bricks.edge))
-    own = law.at(law.density, np.full(len(share), start)) * share
+    own = part.density_at(np.full(len(share), start)) * share
     rest = first.loaded.shares - own - part.shares.solid.mean(axis=1)
 
     def volume_of(thickness: Floats) -> float:
         # Struts of free faces grow by the square of their radius.
-        more = law.at(law.density, thickness) * share + rest * (thickness / start) ** 2
+        more = part.density_at(thickness) * share + rest * (thickness / start) ** 2
         return float((more + part.shares.solid.mean(axis=1)).sum()) * brick
 
     problem = FieldProblem(

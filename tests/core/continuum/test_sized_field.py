@@ -43,7 +43,7 @@ OCTET = LatticeSpec("Octet", cell_size=10, strut_radius=0.7, shell=0)
 
 @pytest.mark.costly
 def test_changes_are_those_of_differences():
-    loads = bent(40, weight=(0.0, 0.0, 5e7))
+    loads = bent(40, weight=(0.0, 0.0, 1e8))
     spec = LatticeSpec(
         "Octet", cell_size=10, strut_radius=0.7, shell=1, radius_grading=_grading(0.4, 1.2)
     )

@@ -160,6 +160,7 @@ SENTENCES = marked(
     "filament: {volume} mm3, {mass} g",
     "as even: {density} % everywhere would take the same",
     # Loads and Sizing, Design Study.
+    "Results of {case}",
     "No load case is chosen: tick at least one.",
     "Least mass needs a limit: of stress, displacement, buckling, frequency.",
     "The document has no load case: make one with Loads and Sizing, or an analysis with the FEM "

@@ -93,6 +93,12 @@ def test_a_window_may_say_tables_in_other_words():
     assert all(word in text for word in ("Größen", "Zelle", "ja", "3"))
 
 
+def test_tables_of_long_lines_fit_the_window():
+    short, long = ("cell", 3), ("most stressed strut, at x, y, z", "5.002, 10, 0.0017", "at one")
+    assert as_html([Table("Sizes", (short,))]).count('width="99%"') == 0
+    assert as_html([Table("Sizes", (short,)), Table("Loads", (short, long))]).count("99%") == 1
+
+
 def test_any_mesh_is_checked_where_it_lies(doc):
     obj = mesh_object(doc, Mesh.createBox(10, 10, 10))
     obj.Placement.Base = App.Vector(100, 0, 0)

@@ -109,7 +109,7 @@ def test_struts_are_sized_stored_and_stay_within_their_limits(infill):
     assert moved <= 1.01 * 0.3
     assert "of one radius they would weigh" in outcome.summary()
     titles = [table.title for table in outcome.tables()]
-    assert titles[:2] == ["Struts", "Load case bend"]
+    assert titles[:2] == ["Struts", "Results of bend"]
     assert titles[-1] == "Steps"
     page = outcome.page("Beam")
     assert "Beam: sized for loads" in page

@@ -51,6 +51,8 @@ from bench.parts import NO_PARTS, PARTS
 
 #: What the sizing of a real part may take on a busy machine, s.
 MINUTES = 800
+#: What is said of a strut or a place that no limit is near to.
+OTHERS = "thickened with others"
 
 
 def sizing_panel():
@@ -117,7 +119,7 @@ def size_and_take(doc, obj):
     picture("sizing_2_sized")
     figures["shades"] = shades("sizing_2_sized", view_3d())
     check("in colours", figures["shades"] > 200, figures["shades"])
-    show_what_governs("sizing_2_governs", {"stress, bend", "smallest radius", "no limit"})
+    show_what_governs("sizing_2_governs", {"stress, bend", "smallest radius"})
     bar = part("Steps").horizontalScrollBar()
     check("no column of the steps is cut off", bar.maximum() == 0, bar.maximum())
     click(part("Plot"))
@@ -136,6 +138,8 @@ def size_and_take(doc, obj):
     check("the struts went", dock() is None)
     check("the infill is shown", obj.ViewObject.Visibility)
     check("a report opens", len(reports()) == 1)
+    bar = reports()[0].text.horizontalScrollBar()
+    check("which is not scrolled sideways", bar.maximum() == 0, bar.maximum())
     picture("sizing_3_taken")
     check("radii and mesh are a step each", doc.UndoCount == steps + 2, (doc.UndoCount, steps))
     reports()[0].close()
@@ -543,9 +547,9 @@ def size_the_skin(doc, obj):
     picture("skin_3_colours")
     figures["shades of the skin"] = shades("skin_3_colours", view_3d())
     check("in colours", figures["shades of the skin"] > 150, figures["shades of the skin"])
-    wanted = {"smallest thickness", "largest thickness", "skin stress, bend", "no limit"}
+    wanted = {"smallest thickness", "largest thickness", "skin stress, bend", OTHERS}
     show_what_governs("skin_4_governs", wanted, "Governing limit of the skin")
-    wanted = {"stress, bend", "smallest radius", "no limit"}
+    wanted = {"stress, bend", "smallest radius", OTHERS}
     show_what_governs("skin_5_governs", wanted, "Governing limit")
     obj.ViewObject.ColourBy = "None"
     dock().close()

@@ -101,7 +101,7 @@ def sizing_page(report: Mapping[str, Any], solid: TriangleMesh, loads: LoadCases
         "<p>Blue is held, orange is loaded.</p>",
         '<div class="cases">',
         *(
-            f"<figure>{load_drawing(solid, case)}<figcaption>Case {_text(case.name)}</figcaption>"
+            f"<figure>{load_drawing(solid, case)}<figcaption>{_text(case.name)}</figcaption>"
             "</figure>"
             for case in loads.cases
         ),

@@ -10,6 +10,7 @@ import base64
 import html
 import io
 import os
+import re
 import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -57,7 +58,8 @@ pre{white-space:pre-wrap;overflow-wrap:anywhere;background:#f3f5f9;
 padding:.5rem;border-radius:4px;font-size:12px;margin:.4rem 0 0;user-select:all}
 .scroll{overflow:auto;max-height:75vh;border:1px solid #d5dae3;border-radius:6px}
 table{border-collapse:collapse}td,th{padding:.2rem .55rem;text-align:left;white-space:nowrap}
-#runs th{position:sticky;top:0;background:#e9edf5;cursor:pointer}
+#runs th{position:sticky;top:0;background:#e9edf5;cursor:pointer;white-space:normal;
+vertical-align:bottom}
 #runs th.up::after{content:" \\25b2"}#runs th.down::after{content:" \\25bc"}
 td.n{text-align:right;font-variant-numeric:tabular-nums}
 tr:nth-child(even){background:#f8f9fc}tr.front{background:#dff0e6}tr.failed{color:#a33}
@@ -208,11 +210,24 @@ def _picture(folder: Path, row: Mapping[str, Any]) -> str:
 
 
 def _rows(table: Table) -> list[str]:
-    heads = "".join(f"<th>{_text(name)}</th>" for name in table.columns)
+    # What is the same of all designs is said once, and not in a column that pushes others aside.
+    same = {
+        name: values[0]
+        for name in table.columns
+        for values in (table.column(name),)
+        if len(values) > 1 and name != "key" and all(value == values[0] for value in values)
+    }
+    shown = [name for name in table.columns if name not in same]
+    told = ", ".join(
+        f"{name} {_shown(value)}" for name, value in same.items() if value not in (None, "")
+    )
+    # A column is as wide as the longest part of its name.
+    names = (re.sub("([._])", r"\1<wbr>", _text(name)) for name in shown)
+    heads = "".join(f"<th>{name}</th>" for name in names)
     state, front = table.columns.index("state"), table.columns.index("front")
     parts = [
         "<h2>All designs</h2>",
-        '<p class="muted">A click on a heading sorts.</p>',
+        f'<p class="muted">A click on a heading sorts. The same for all: {_text(told or "-")}.</p>',
         '<input id="find" placeholder="Show only rows with these words" aria-label="filter">',
         f'<div class="scroll"><table id="runs"><thead><tr>{heads}</tr></thead><tbody>',
     ]
@@ -221,6 +236,7 @@ def _rows(table: Table) -> list[str]:
         cells = "".join(
             _cell(value, time=name.startswith(SECONDS))
             for name, value in zip(table.columns, row, strict=True)
+            if name not in same
         )
         parts.append(f'<tr class="{kind}">{cells}</tr>')
     return [*parts, "</tbody></table></div>"]
@@ -244,12 +260,19 @@ def _sentences(title: str, sentences: Mapping[str, int]) -> list[str]:
 def _cell(value: Any, time: bool = False) -> str:
     if value is None:
         return "<td></td>"
-    if isinstance(value, bool):
-        return f"<td>{'yes' if value else 'no'}</td>"
-    if isinstance(value, (int, float)):
-        shown = f"{value:,}" if isinstance(value, int) else f"{value:.{2 if time else 5}g}"
+    shown = _shown(value, time)
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
         return f'<td class="n" data-v="{value!r}">{shown}</td>'
-    return f"<td>{_text(str(value))}</td>"
+    return f"<td>{_text(shown)}</td>"
+
+
+def _shown(value: Any, time: bool = False) -> str:
+    """A figure or a word as a person reads it."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int):
+        return f"{value:,}"
+    return f"{value:.{2 if time else 5}g}" if isinstance(value, float) else str(value)
 
 
 def _text(text: str) -> str:

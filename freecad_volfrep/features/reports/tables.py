@@ -12,6 +12,9 @@ from typing import Any
 
 #: Separates columns in a CSV file.
 SEPARATOR = ","
+#: A table whose lines have more letters is as wide as the window, but for a hundredth: Qt rounds
+#: columns that it has to squeeze up, and a whole window would then be scrolled by that pixel.
+LONG, WIDTH = 48, ' width="99%"'
 
 
 @dataclass(frozen=True)
@@ -50,7 +53,9 @@ def as_html(tables: list[Table], said: Callable[[str], str] = str) -> str:
     parts = ['<!DOCTYPE html><html><head><meta charset="utf-8"></head><body>']
     for table in tables:
         parts.append(f"<h3>{html.escape(said(table.title))}</h3>")
-        parts.append('<table cellspacing="0" cellpadding="3">')
+        lines = (table.header, *table.rows)
+        long = max(sum(len(shown(cell)) for cell in line) for line in lines) > LONG
+        parts.append(f'<table cellspacing="0" cellpadding="3"{WIDTH * long}>')
         if table.header:
             cells = "".join(
                 f'<th align="left">{html.escape(said(name))}</th>' for name in table.header

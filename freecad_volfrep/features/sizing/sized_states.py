@@ -44,7 +44,7 @@ NO_SKIN = QT_TRANSLATE_NOOP(
 LIMIT_NAMES = marked(
     "VolfrepSizePanel", "stress", "displacement", "buckling", "frame buckling", "frequency",
     "skin stress", "smallest radius", "largest radius", "smallest thickness", "largest thickness",
-    "stiffness", "no limit",
+    "stiffness", "thickened with others", "one radius for all",
 )  # fmt: skip
 #: Of an end of a strut: its place, and the largest of all load cases, by the names of
 #: `volfrep.jobs.figures.point_values.OF_LOADS`.

@@ -243,7 +243,7 @@ class Outcome:
             worst = int(np.argmax(state.stress.max(axis=1)))
             place = "{:.4g}, {:.4g}, {:.4g}".format(*state.ends[worst].mean(axis=0))
             rows.append(("most stressed strut, at x, y, z", place))
-            tables.append(Table(f"Load case {state.name}", tuple(rows), tables[0].header))
+            tables.append(Table(f"Results of {state.name}", tuple(rows), tables[0].header))
         proof = self.part.report["calculix"]
         if proof is not None:
             off = 100.0 * max(proof["displacements_off"])

@@ -4070,6 +4070,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Veraltet: Werte wurden geändert, seit dieses Netz gemacht wurde; neu berechnen</translation>
     </message>
     <message>
+      <source>Results of {case}</source>
+      <translation>Ergebnisse: {case}</translation>
+    </message>
+    <message>
       <source>Results were of a wrong type, as another program leaves them: recompute for new ones</source>
       <translation>Ergebnisse waren von falschem Typ, wie ein anderes Programm sie hinterlässt: neu berechnen ergibt neue</translation>
     </message>
@@ -4589,8 +4593,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>größte Dicke</translation>
     </message>
     <message>
-      <source>no limit</source>
-      <translation>keine Grenze</translation>
+      <source>one radius for all</source>
+      <translation>ein Radius für alle</translation>
     </message>
     <message>
       <source>skin stress</source>
@@ -4611,6 +4615,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>stress</source>
       <translation>Spannung</translation>
+    </message>
+    <message>
+      <source>thickened with others</source>
+      <translation>mit anderen verdickt</translation>
     </message>
   </context>
   <context>

@@ -4070,6 +4070,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Non aggiornato: i valori sono cambiati da quando questa mesh è stata creata; ricalcolare</translation>
     </message>
     <message>
+      <source>Results of {case}</source>
+      <translation>Risultati: {case}</translation>
+    </message>
+    <message>
       <source>Results were of a wrong type, as another program leaves them: recompute for new ones</source>
       <translation>I risultati erano di tipo errato, come li lascia un altro programma: ricalcolare per averne di nuovi</translation>
     </message>
@@ -4589,8 +4593,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>spessore massimo</translation>
     </message>
     <message>
-      <source>no limit</source>
-      <translation>nessun limite</translation>
+      <source>one radius for all</source>
+      <translation>un raggio per tutti</translation>
     </message>
     <message>
       <source>skin stress</source>
@@ -4611,6 +4615,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>stress</source>
       <translation>tensione</translation>
+    </message>
+    <message>
+      <source>thickened with others</source>
+      <translation>ingrossato con gli altri</translation>
     </message>
   </context>
   <context>

@@ -41,7 +41,7 @@ class Page(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list) -> None:
         given = dict(attrs)
-        if tag not in ("meta", "img", "input"):
+        if tag not in ("meta", "img", "input", "wbr"):
             self.opened.append(tag)
         if tag == "img":
             self.images.append(given["src"])
@@ -78,7 +78,8 @@ def test_its_plots_show_every_design_and_name_their_axes(made: Path) -> None:
 
 @pytest.mark.skipif(not shutil.which("chromium"), reason="needs the browser chromium")
 def test_a_browser_sorts_and_filters_its_table(made: Path, tmp_path: Path) -> None:
-    mass = made.read_text().split("<thead>")[1].split("</tr>")[0].split("<th>")
+    heads = made.read_text().split("<thead>")[1].split("</tr>")[0]
+    mass = heads.replace("<wbr>", "").split("<th>")
     column = next(k for k, head in enumerate(mass) if head.startswith("forecast.mass_g")) - 1
     act = f"""<script>
     document.querySelectorAll("#runs th")[{column}].click();
@@ -99,6 +100,13 @@ def test_a_browser_sorts_and_filters_its_table(made: Path, tmp_path: Path) -> No
     masses = [float(mass) for mass in title.split()]
     assert len(masses) == 3
     assert masses == sorted(masses)
+
+
+def test_what_all_designs_share_is_said_once(made: Path) -> None:
+    text = made.read_text()
+    heads = text.split("<thead>")[1].split("</thead>")[0]
+    assert "The same for all: part part, shell 1, cell_size 8, state done" in text
+    assert heads.startswith("<tr><th>key</th><th>cell</th><th>strut_<wbr>radius</th>")
 
 
 def test_refused_combinations_are_counted_on_it(made: Path) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...sizing.analysis import Analysis, Limits, Problem
@@ -17,11 +18,14 @@ from ...util.types import Floats, Ints
 _NEAR, _SHARED = 0.9, 0.98
 #: A radius is at a bound within this factor.
 _BOUND = 1.0 + 1e-3
+#: One factor for all radii brings a design to its limits: what was as thin as it may be is then
+#: thicker by that, and still governed by it up to this factor.
+_COMMON = 1.05
 #: A node is an end's own with more than this share in its radius.
 _OWN = 0.3
-THINNEST, THICKEST, STIFFNESS, NOTHING = (
-    "smallest radius", "largest radius", "stiffness", "no limit",
-)  # fmt: skip
+THINNEST, THICKEST, STIFFNESS = "smallest radius", "largest radius", "stiffness"
+#: No limit is near and no bound: what is thicker so that others hold theirs.
+WITH_OTHERS, ONE_RADIUS = "thickened with others", "one radius for all"
 THIN_SKIN, THICK_SKIN = "smallest thickness", "largest thickness"
 
 
@@ -30,8 +34,8 @@ class Governing:
     """What says how thick struts, or the places of a skin, are.
 
     Attributes:
-        names: a limit, a bound, or `NOTHING`; and the load case, empty without one. The first
-            governs the most, and what governs nothing is left out.
+        names: a limit, a bound, or why it is thicker than these ask for; and the load case, empty
+            without one. The first governs the most, and what governs nothing is left out.
         much: (names,) how many struts, or mm2 of the skin, each of them governs.
         rows: (m,) of each strut or place, its row in `names`.
     """
@@ -81,7 +85,8 @@ def governing(problem: Problem, design: Analysis, limits: Limits) -> Governing:
     A strut's own limits, stress and buckling, do where it uses nine tenths of one; else those of
     the most used strut that its thicker end is shared with. An end that is as thin as it may be is
     governed by that, and every other one by the limit that all struts share, displacement,
-    frequency or buckling together, where that is used up.
+    frequency or buckling together, where that is used up. What is thicker than all of these ask for
+    is so because all radii are multiplied by one factor, or are one, so that others hold theirs.
 
     Args:
         problem: that was solved.
@@ -102,8 +107,10 @@ def governing(problem: Problem, design: Analysis, limits: Limits) -> Governing:
     own = local.argmax(axis=1) if local.shape[1] else np.zeros(len(most), np.int64)
 
     first = len(names)
-    names += [(THINNEST, ""), (THICKEST, ""), _shared(design, limits, cases)]
     radii, nodes = design.radii, len(design.radii)
+    is_even = bool(radii.max() <= radii.min() * _BOUND)
+    shared = _shared(design, limits, cases) or (ONE_RADIUS if is_even else WITH_OTHERS, "")
+    names += [(THINNEST, ""), (THICKEST, ""), shared]
     entries = problem.radii.ends.tocoo()
     part = entries.data > _OWN
     row, column = entries.row[part], entries.col[part]
@@ -113,7 +120,7 @@ def governing(problem: Problem, design: Analysis, limits: Limits) -> Governing:
     of_node = np.full(nodes, first + 2)
     near = most[busiest] >= _NEAR
     of_node[near] = own[busiest[near]]
-    of_node[radii <= problem.low * _BOUND] = first
+    of_node[_as_thin_as_allowed(radii, problem.low)] = first
     of_node[radii * _BOUND >= problem.high] = first + 1
     thick = problem.radii.of_struts(design.radii).argmax(axis=1)
     ends = problem.radii.ends.tocsr()[2 * np.arange(len(thick)) + thick]
@@ -136,11 +143,12 @@ def governing_skin(problem: Problem, design: Analysis, limits: Limits) -> Govern
     skin = problem.skin
     assert skin is not None
     cases = [case.name for case in problem.cases]
-    names = [(THIN_SKIN, ""), (THICK_SKIN, ""), _shared(design, limits, cases)]
+    shared = _shared(design, limits, cases) or (WITH_OTHERS, "")
+    names = [(THIN_SKIN, ""), (THICK_SKIN, ""), shared]
     roots = design.radii[skin.radii :]
     low, high = problem.low[skin.radii :], problem.high[skin.radii :]
     governs = np.full(len(roots), 2)
-    governs[roots <= low * _BOUND] = 0
+    governs[_as_thin_as_allowed(roots, low)] = 0
     governs[roots * _BOUND >= high] = 1
     if limits.skin_stress is not None:
         assert design.skin_stress is not None
@@ -152,8 +160,14 @@ def governing_skin(problem: Problem, design: Analysis, limits: Limits) -> Govern
     return _by_size(names, governs, skin.areas)
 
 
-def _shared(design: Analysis, limits: Limits, cases: list[str]) -> tuple[str, str]:
-    """The limit that all struts share and that is used most, with its case, where it is used up."""
+def _as_thin_as_allowed(radii: Floats, low: Floats) -> NDArray[np.bool_]:
+    """(n,) which are at their bound, but for one factor for all."""
+    common = float((radii / low).min(initial=np.inf))
+    return np.asarray(radii <= low * (_BOUND * (common if common <= _COMMON else 1.0)))
+
+
+def _shared(design: Analysis, limits: Limits, cases: list[str]) -> tuple[str, str] | None:
+    """The limit that all share and that is used most, with its case; None where none is used up."""
     if not limits.any:
         return STIFFNESS, ""
     shared = {
@@ -162,7 +176,7 @@ def _shared(design: Analysis, limits: Limits, cases: list[str]) -> tuple[str, st
         if name in ("displacement", "frequency", "frame buckling") and use >= _SHARED
     }
     if not shared:
-        return NOTHING, ""
+        return None
     name = max(shared, key=lambda one: shared[one])
     case = design.worst[name][0]
     return name, cases[case] if case >= 0 else ""

@@ -161,6 +161,17 @@ SENTENCES = marked(
     "as even: {density} % everywhere would take the same",
     # Loads and Sizing, Design Study.
     "Results of {case}",
+    "No process is chosen to build for: choose one for the infill.",
+    "Struts are no thinner than {process} prints: {radius} mm in radius.",
+    "The skin is no thinner than {process} prints: {wall} mm.",
+    "Struts that lie flatter than {process} builds stay: {reason}. Another cell, or another build "
+    "direction, may have fewer of them.",
+    "without them the limits cannot be held",
+    "{process} builds {degrees} degrees and more without support, and {area} mm2 of the part's "
+    "outside are flatter, as at {place}: another build direction may have less.",
+    "{process} builds {degrees} degrees and more without support, and {area} mm2 of ceilings "
+    "within its skin, which only struts hold, are flatter, as at {place}: another build direction "
+    "may have less.",
     "No load case is chosen: tick at least one.",
     "Least mass needs a limit: of stress, displacement, buckling, frequency.",
     "The document has no load case: make one with Loads and Sizing, or an analysis with the FEM "

@@ -22,8 +22,11 @@ from freecad_volfrep.features.sizing.sizing import (
     GOALS,
     ONLY_OF,
     analyses_of,
+    building_in_words,
+    building_of,
     carried_by,
     first_numbers,
+    is_sized_for_print,
     size_struts,
     sized_as_printed,
     solve_struts,
@@ -93,6 +96,58 @@ def test_thin_struts_are_removed_and_stay_so_in_the_document(infill):
     assert infill.Struts == len(outcome.part.model.wireframe.struts)
     assert json.loads(infill.Report)["thin_struts_removed"] > 0
     assert infill.Bodies == 1
+
+
+@pytest.mark.slow
+def test_a_design_for_printing_has_no_flat_struts_and_is_again_one_of_all(infill):
+    """Of FCC cells built along x those across it lie flat; the document keeps what was asked."""
+    doc, infill.CellType, infill.PrintProcess = infill.Document, "FCC", "LPBF"
+    infill.BuildDirection = App.Vector(1, 0, 0)
+    loaded(infill)
+    wanted = {"safety": 2, "thinnest": 0.1, "thickest": 1.6, "prove": False}
+    outcome = size_lattice(infill, **wanted, for_print=True)
+
+    def steepness(model):
+        """Inclinations to the plane across x, degrees."""
+        ends = model.wireframe.nodes[model.wireframe.struts]
+        along = np.abs(ends[:, 1] - ends[:, 0])
+        return np.degrees(np.arcsin(along[:, 0] / np.linalg.norm(along, axis=1)))
+
+    assert outcome.holds
+    assert steepness(outcome.part.model).min() > 44.9
+    assert outcome.part.radii.min() >= 0.3  # LPBF prints 0.6 mm
+    assert (infill.RemoveFlatter, is_sized_for_print(infill)) == (45.0, True)
+    gone = outcome.part.report["building"]["removed"]
+    said = outcome.summary().split("\n")
+    assert f"For LPBF, built along x: {gone} struts that lie flatter than 45 degrees" in said[1]
+    assert "Struts are no thinner than LPBF prints: 0.3 mm in radius." in said
+    assert outcome.summary().count("no thinner") == 1
+    rows = dict(next(one for one in outcome.tables() if one.title == "For printing").rows)
+    assert (rows["process"], rows["build direction"]) == ("LPBF", "x")
+    assert rows["flatter struts removed"] == gone > 0
+    assert rows["flatter parts of the outside, mm2"] == 0.0  # an end stands on the plate
+    assert "by LPBF along x" in outcome.page("Beam")
+    infill.AutoUpdate = True
+    doc.recompute()
+    assert json.loads(infill.Report)["flat_struts_removed"] == gone
+    # Sized again for what it is, all struts are there again.
+    whole = size_lattice(infill, **wanted)
+    assert (infill.RemoveFlatter, is_sized_for_print(infill)) == (0.0, False)
+    assert steepness(whole.part.model).min() < 1.0
+    assert "LPBF" not in whole.summary()
+
+
+def test_what_printing_asks_for_is_told_before(infill):
+    assert not is_sized_for_print(infill)
+    with pytest.raises(VolfrepError, match="No process is chosen to build for"):
+        building_of(infill)
+    infill.PrintMaterial = "Ti-6Al-4V"  # which is printed by LPBF
+    assert building_in_words(building_of(infill)) == (
+        "LPBF, built along z: struts from 0.6 mm thick and 45 degrees steep, walls from 0.4 mm"
+    )
+    infill.PrintProcess, infill.BuildDirection = "SLS", App.Vector(0, -1, 1)
+    said = building_in_words(building_of(infill))
+    assert said == "SLS, built along 0, -1, 1: struts from 0.8 mm thick, walls from 0.7 mm"
 
 
 @pytest.mark.costly

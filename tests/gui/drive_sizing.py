@@ -211,6 +211,49 @@ def size_as_printed(doc, obj):
     wait_until(lambda: sizing_panel() is None)
 
 
+def fcc():
+    """A beam of FCC cells built along itself, of which those struts lie flat that go across."""
+    return loaded(CellType="FCC", BuildDirection=App.Vector(1, 0, 0))
+
+
+@slow
+def size_for_printing(doc, obj):
+    """Flat struts go where the box says so, which needs a process; the document remembers it."""
+    open_panel(obj)
+    tick, said = part("ForPrint", QtGui.QCheckBox), part("Building", QtGui.QLabel)
+    check("it needs a process", not tick.isEnabled() and "No process" in said.text(), said.text())
+    choose("PrintProcess", "LPBF", lambda: obj.PrintProcess)
+    wanted = "LPBF, built along x: struts from 0.6 mm thick and 45 degrees steep"
+    check("whose limits are told", wait_until(lambda: wanted in said.text()), said.text())
+    check("and is not asked for by itself", tick.isEnabled() and not tick.isChecked())
+    click(tick)
+    check("a click asks for it", wait_until(tick.isChecked))
+    click(part("Prove"))
+    picture("for_print_1_panel")
+    click(part("Size"))
+    told = lambda: part("Said").text()  # noqa: E731
+    check("flat struts went", wait_until(lambda: "flatter than 45" in told(), 90), told())
+    check("in a line of its own", told().count("\n") >= 1, told())
+    figures["said for printing"] = told()
+    picture("for_print_2_sized")
+    answer_panel("OK")
+    check("the panel closes", wait_until(lambda: sizing_panel() is None, 90))
+    check("a report opens", wait_until(lambda: len(reports()) == 1, 60))
+    shown = reports()[0].text.toPlainText()
+    check("which tells it", "For printing" in shown and "flatter struts removed" in shown, shown)
+    bar = reports()[0].text.horizontalScrollBar()
+    check("which is not scrolled sideways", bar.maximum() == 0, bar.maximum())
+    picture("for_print_3_report")
+    reports()[0].close()
+    settle()
+    check("it is up to date", obj.Status == "Up to date", obj.Status)
+    check("without flat struts", obj.RemoveFlatter == 45.0, obj.RemoveFlatter)
+    open_panel(obj)
+    check("it is remembered", part("ForPrint").isChecked())
+    answer_panel("Cancel")
+    wait_until(lambda: sizing_panel() is None)
+
+
 @slow
 def size_a_network(doc, obj):
     """A random network is sized by clicks as cells are, and its radii stored on its own nodes."""
@@ -729,6 +772,7 @@ run_checks(
     {
         size_and_take: loaded,
         size_as_printed: loaded,
+        size_for_printing: fcc,
         size_a_network: network,
         cancel_the_panel: loaded,
         escape_keeps_the_best: lambda: loaded((120, 40, 40)),

@@ -25,7 +25,7 @@ NOT_LOOKED_AT = (
 )
 #: Rows of `sizing_rows` that are told as they are.
 _TOLD = (
-    "struts", "as printed", "skin", "skin governed by", "solid", "one skin", "radius list",
+    "struts", "as printed", "built", "skin", "skin governed by", "solid", "one skin", "radius list",
     "removed", "governed by", "same mass", "same limits", "CalculiX",
 )  # fmt: skip
 #: A limit by its name.

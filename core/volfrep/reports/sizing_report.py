@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -126,6 +126,8 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         thin, thick = report["as_printed"]["diameters_mm"]
         value = f"this mass and all that follows is of struts {thin:.3g} to {thick:.3g} mm thick"
         rows.append(("as printed", f"{value} ({report['as_printed']['table']})"))
+    if "building" in report:
+        rows.append(("built", _built(report["building"])))
     if report["skin_mass_g"]:
         rows.append(("skin mass", f"{report['skin_mass_g']:.4g} g"))
     if "radius_list" in report:
@@ -229,6 +231,31 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     if "file" in report:
         rows += _file_rows(report["file"])
     return rows
+
+
+def _built(figures: Mapping[str, Any]) -> str:
+    """By which process, along which direction, and what of the part is less steep than it asks."""
+    said = f"by {figures['process']} along {along_text(figures['build_direction'])}"
+    least = figures["inclination_degrees"]
+    if not least:
+        return f"{said}, which needs no support"
+    hanging = ", ".join(
+        f"{figures[name]['area_mm2']:,.0f} mm2 of {what}"
+        for name, what in (("outside", "its outside"), ("ceilings", "ceilings within its skin"))
+        if name in figures
+    )
+    return (
+        f"{said}: {figures['removed']:,} struts flatter than {least:g} degrees removed; flatter "
+        f"are {hanging}"
+    )
+
+
+def along_text(direction: Sequence[float]) -> str:
+    """A direction as it is told: the axis that it is along, or its components."""
+    axes = [k for k, part in enumerate(direction) if part]
+    if len(axes) == 1:
+        return f"{'-' * (direction[axes[0]] < 0.0)}{'xyz'[axes[0]]}"
+    return ", ".join(f"{part:.3g}" for part in direction)
 
 
 def _governed(rows: list[dict[str, Any]]) -> str:

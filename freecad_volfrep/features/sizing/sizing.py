@@ -12,11 +12,11 @@ import FreeCAD as App
 import numpy as np
 from numpy.typing import NDArray
 
-from freecad_volfrep.features.infill.materials import material_of
+from freecad_volfrep.features.infill.materials import material_of, process_of
 from freecad_volfrep.features.infill.sized_radii import store_radii, store_skin
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.reports.tables import Table
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, spoken, translate
 from volfrep.design.parameters.specification import spec_value
 from volfrep.design.parameters.table import BY_NAME
 from volfrep.util.errors import VolfrepError
@@ -31,7 +31,7 @@ from .sized_states import (
 )
 
 if TYPE_CHECKING:
-    from volfrep.jobs.sizing import Goal, Printing, SizedPart
+    from volfrep.jobs.sizing import Building, Goal, Printing, SizedPart
     from volfrep.loads.load_cases import LoadCases
     from volfrep.mechanics.materials import SolidMaterial
     from volfrep.mesh.triangle_mesh import TriangleMesh
@@ -104,8 +104,9 @@ class Outcome:
         report = self.part.report
         proof, printed = report["calculix"], report.get("as_printed")
         if proof is None:
-            told = None if printed is None else printed_note(printed)
-            said = " ".join(note for note in report["notes"] if note != told)
+            told = [] if printed is None else [printed_note(printed)]
+            told += report.get("building", {}).get("notes", ())
+            said = " ".join(note for note in report["notes"] if note not in told)
         else:
             off = 100.0 * max(proof["displacements_off"])
             said = (
@@ -124,7 +125,27 @@ class Outcome:
                     "VolfrepSizePanel", "CalculiX does not confirm this design: see its notes."
                 )
                 said = f"{said} {refused}"
-        return " ".join(text for text in (self._found(), self._printed(), said) if text)
+        found = " ".join(text for text in (self._found(), self._printed(), said) if text)
+        return "\n".join([found, *self._built()])
+
+    def _built(self) -> list[str]:
+        """What its process asked for, in sentences; none where it was not sized for one."""
+        from volfrep.reports.sizing_report import along_text
+
+        built = self.part.report.get("building")
+        if built is None:
+            return []
+        said = translate(
+            "VolfrepSizePanel",
+            "For {process}, built along {direction}: {count} struts that lie flatter than "
+            "{degrees} degrees were taken away.",
+        ).format(
+            process=built["process"],
+            direction=along_text(built["build_direction"]),
+            count=grouped(built["removed"]),
+            degrees=f"{built['inclination_degrees']:g}",
+        )
+        return [*([said] if built["removed"] else ()), *built.get("notes", ())]
 
     def _printed(self) -> str:
         """How struts come out, in a sentence; empty where they are taken as drawn."""
@@ -224,6 +245,9 @@ class Outcome:
         printed = self.part.report.get("as_printed")
         if printed is not None:
             tables.append(Table("As printed, of which all figures are", _printed_rows(printed)))
+        built = self.part.report.get("building")
+        if built is not None:
+            tables.append(Table("For printing", tuple(_built_rows(built))))
         split = self.part.report["masses_g"]
         if split["skin"]:
             tables.append(Table("Mass", tuple(_split_rows(split))))
@@ -319,6 +343,25 @@ def _printed_rows(printed: Mapping[str, Any]) -> tuple[tuple[Any, ...], ...]:
     )
 
 
+def _built_rows(built: Mapping[str, Any]) -> list[tuple[Any, ...]]:
+    """By which process, along which direction, and what of the part is less steep than it asks."""
+    from volfrep.reports.sizing_report import along_text
+
+    rows: list[tuple[Any, ...]] = [
+        ("process", built["process"]),
+        ("build direction", along_text(built["build_direction"])),
+    ]
+    if built["inclination_degrees"]:
+        rows += [
+            ("builds without support from, degrees", built["inclination_degrees"]),
+            ("flatter struts removed", built["removed"]),
+            ("flatter parts of the outside, mm2", built["outside"]["area_mm2"]),
+        ]
+        if "ceilings" in built:
+            rows.append(("flatter ceilings within the skin, mm2", built["ceilings"]["area_mm2"]))
+    return rows
+
+
 def _margin(shares: NDArray[np.float64]) -> float:
     """How many times the load may be until struts buckle, one alone or together."""
     return float(1.0 / max(float(shares.max(initial=0.0)), 1e-12))
@@ -347,6 +390,7 @@ def size_lattice(
     remove_thin: bool = False,
     as_printed: str = "",
     scatter: float = 0.0,
+    for_print: bool = False,
     **numbers: float,
 ) -> Outcome:
     """Size an infill and store what was found; ``doc.recompute()`` then makes the mesh.
@@ -361,6 +405,8 @@ def size_lattice(
             struts as they come out; empty takes them as drawn. The print goes up along the
             infill's BuildDirection.
         scatter: stress and buckling are of struts thinner by so many standard deviations of it.
+        for_print: struts and a sized skin no thinner than the infill's process prints, and none
+            flatter as far as limits allow; the print goes up along the infill's BuildDirection.
         **numbers: by the names of `volfrep.jobs.sizing.GOALS`, in place of those that the panel
             begins with: such as ``safety=2``, ``max_displacement=0.1``, ``thinnest=0.4``, or
             ``skin_thinnest=0.8``, with which the skin is sized, too.
@@ -372,6 +418,7 @@ def size_lattice(
     outcome = size_struts(
         obj, analyses_of(obj) if analyses is None else analyses, {**first_numbers(obj), **numbers},
         goal=goal, prove=prove, remove_thin=remove_thin, as_printed=as_printed, scatter=scatter,
+        for_print=for_print,
     )  # fmt: skip
     store_outcome(obj, outcome)
     return outcome
@@ -389,6 +436,7 @@ def store_outcome(obj: App.DocumentObject, outcome: Outcome) -> None:
     if shortest:  # other radii would draw other struts together
         obj.NetworkShortest = shortest
     obj.RemoveBelow, obj.RemoveDangling = spec.remove_below, spec.remove_dangling
+    obj.RemoveFlatter = spec_value(spec, BY_NAME["remove_flatter"]) or 0.0
     obj.SizingReport = outcome.to_json()
     store_states(obj, outcome.states, outcome.loads)
 
@@ -417,6 +465,7 @@ def size_struts(
     remove_thin: bool = False,
     as_printed: str = "",
     scatter: float = 0.0,
+    for_print: bool = False,
 ) -> Outcome:
     """Size an infill's struts; the infill stays as it is (see `sized_radii.store_radii`).
 
@@ -433,6 +482,8 @@ def size_struts(
             struts as they come out; empty takes them as drawn. The print goes up along the
             infill's BuildDirection.
         scatter: stress and buckling are of struts thinner by so many standard deviations of it.
+        for_print: struts and a sized skin no thinner than the infill's process prints, and none
+            flatter as far as limits allow; the print goes up along the infill's BuildDirection.
 
     Raises:
         VolfrepError: no analysis is chosen, or what is asked for makes no sense or cannot be.
@@ -448,7 +499,10 @@ def size_struts(
         _wanted(goal, numbers, loads.material),
         remove_thin=remove_thin,
         printing=_printing(obj, as_printed, scatter),
+        building=building_of(obj) if for_print else None,
     )
+    if for_print or is_sized_for_print(obj):
+        spec = replace(spec, flat_struts=None)  # which go is decided anew
     steps: list[tuple[str, ...]] = []
 
     def watch(number: int, step: Step) -> bool:
@@ -538,6 +592,50 @@ def sized_as_printed(obj: App.DocumentObject) -> tuple[str, float]:
     report = json.loads(obj.SizingReport) if obj.SizingReport else {}
     printed = report.get("as_printed") or {}
     return printed.get("name", ""), float(printed.get("scatters", 0.0))
+
+
+def is_sized_for_print(obj: App.DocumentObject) -> bool:
+    """Whether an infill was sized for what its process builds."""
+    return bool(obj.SizingReport) and "building" in json.loads(obj.SizingReport)
+
+
+def building_of(obj: App.DocumentObject) -> Building:
+    """How an infill is built: by its process, or the usual one of its material.
+
+    Raises:
+        VolfrepError: neither is chosen.
+    """
+    from volfrep.jobs.sizing import Building
+    from volfrep.reports.processes import find_process
+
+    process = process_of(obj)
+    if process is None:
+        raise VolfrepError("No process is chosen to build for: choose one for the infill.")
+    return Building(find_process(process), tuple(obj.BuildDirection))
+
+
+def building_in_words(building: Building) -> str:
+    """By which process, along which direction, and what it asks of struts and skin."""
+    from volfrep.reports.sizing_report import along_text
+
+    process = building.process
+    said = translate(
+        "VolfrepSizePanel",
+        "{process}, built along {direction}: struts from {strut} mm thick, walls from {wall} mm",
+    )
+    if process.inclination:
+        said = translate(
+            "VolfrepSizePanel",
+            "{process}, built along {direction}: struts from {strut} mm thick and {degrees} "
+            "degrees steep, walls from {wall} mm",
+        )
+    return said.format(
+        process=process.name,
+        direction=along_text(building.build_direction),
+        strut=spoken(f"{process.strut:g}"),
+        degrees=f"{process.inclination:g}",
+        wall=spoken(f"{process.wall:g}"),
+    )
 
 
 def printing_of(obj: App.DocumentObject) -> Printing | None:

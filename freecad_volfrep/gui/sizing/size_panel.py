@@ -17,7 +17,10 @@ from freecad_volfrep.features.sizing.sizing import (
     GOALS,
     ONLY_OF,
     Outcome,
+    building_in_words,
+    building_of,
     first_numbers,
+    is_sized_for_print,
     size_struts,
     sized_as_printed,
     store_outcome,
@@ -244,6 +247,7 @@ class SizePanel:
                 remove_thin=self._remove.isChecked(),
                 as_printed=self._printed_table(),
                 scatter=self._scatter.value(),
+                for_print=self._for_print.isChecked(),
             )
         except VolfrepError as error:
             self._say(str(error), wrong=True)
@@ -308,7 +312,33 @@ class SizePanel:
             rows.addRow(QtWidgets.QLabel(label_of(name)), field)
             self._lists.append(field)
         self._add_printed(rows)
+        self._for_print = _switch(
+            "ForPrint",
+            is_sized_for_print(self._obj),
+            translate("VolfrepSizePanel", "For printing"),
+            translate(
+                "VolfrepSizePanel",
+                "Struts and skin no thinner than the process prints, and none flatter as far as "
+                "limits allow. The build direction is the infill's property BuildDirection",
+            ),
+        )
+        rows.addRow(self._for_print)
+        self._building = Message("Building")
+        rows.addRow(self._building)
+        self._show_building()
         return box
+
+    def _show_building(self) -> None:
+        """What the infill's process asks for, or that none is chosen."""
+        try:
+            building = building_of(self._obj)
+        except VolfrepError as error:
+            self._for_print.setEnabled(False)
+            self._for_print.setChecked(False)
+            self._building.say(str(error))
+            return
+        self._for_print.setEnabled(True)
+        self._building.say(building_in_words(building))
 
     def _add_printed(self, rows: Any) -> None:
         """How struts come out: as drawn, by a table of the infill's process, or by one's own."""
@@ -397,6 +427,7 @@ class SizePanel:
     def _made_of(self, name: str) -> None:
         """Struts no thinner than the process prints; its tables of printed diameters."""
         self._offer_tables()
+        self._show_building()
         first = first_numbers(self._obj)
         for bound in ("thinnest", "thickest"):
             field = self._fields[bound][1]

@@ -3344,6 +3344,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>E entlang z</translation>
     </message>
     <message>
+      <source>For printing</source>
+      <translation>Für den Druck</translation>
+    </message>
+    <message>
       <source>FreeCAD's own checks</source>
       <translation>FreeCADs eigene Prüfungen</translation>
     </message>
@@ -3472,6 +3476,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Knicken, % der Grenze</translation>
     </message>
     <message>
+      <source>build direction</source>
+      <translation>Baurichtung</translation>
+    </message>
+    <message>
+      <source>builds without support from, degrees</source>
+      <translation>baut ohne Stützen ab, Grad</translation>
+    </message>
+    <message>
       <source>bulk modulus</source>
       <translation>Kompressionsmodul</translation>
     </message>
@@ -3534,6 +3546,18 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>every triangle keeps its corners</source>
       <translation>jedes Dreieck behält seine Ecken</translation>
+    </message>
+    <message>
+      <source>flatter ceilings within the skin, mm2</source>
+      <translation>flachere Decken innerhalb der Haut, mm2</translation>
+    </message>
+    <message>
+      <source>flatter parts of the outside, mm2</source>
+      <translation>flachere Teile der Außenseite, mm2</translation>
+    </message>
+    <message>
+      <source>flatter struts removed</source>
+      <translation>flachere Streben entfernt</translation>
     </message>
     <message>
       <source>found</source>
@@ -4018,6 +4042,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Kein Lastfall ist gewählt: mindestens einen ankreuzen.</translation>
     </message>
     <message>
+      <source>No process is chosen to build for: choose one for the infill.</source>
+      <translation>Es ist kein Verfahren gewählt, für das gebaut wird: Wählen Sie eines für die Füllung.</translation>
+    </message>
+    <message>
       <source>No strut of cells of {size} mm lies inside the skin: reduce the cell size or the skin thickness.</source>
       <translation>Keine Strebe von Zellen von {size} mm liegt innerhalb der Haut: die Zellgröße oder die Hautdicke verringern.</translation>
     </message>
@@ -4086,6 +4114,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Streben sind nahe {place} nur {thin} mm dick, und {process} verlangt {least} mm: den Radius vergrößern.</translation>
     </message>
     <message>
+      <source>Struts are no thinner than {process} prints: {radius} mm in radius.</source>
+      <translation>Streben sind nicht dünner, als {process} druckt: {radius} mm Radius.</translation>
+    </message>
+    <message>
       <source>Struts are only {gap} mm apart near {place}, and {process} wants {least} mm: they may fuse or hold powder; enlarge the cells.</source>
       <translation>Streben sind nahe {place} nur {gap} mm voneinander entfernt, und {process} verlangt {least} mm: Sie können verschmelzen oder Pulver halten; die Zellen vergrößern.</translation>
     </message>
@@ -4096,6 +4128,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Struts of {diameter} mm are thinner than {process} prints: at least {least} mm.</source>
       <translation>Streben von {diameter} mm sind dünner, als {process} druckt: mindestens {least} mm.</translation>
+    </message>
+    <message>
+      <source>Struts that lie flatter than {process} builds stay: {reason}. Another cell, or another build direction, may have fewer of them.</source>
+      <translation>Streben, die flacher liegen, als {process} baut, bleiben: {reason}. Eine andere Zelle oder eine andere Baurichtung hat vielleicht weniger davon.</translation>
     </message>
     <message>
       <source>The Python that goes with this FreeCAD cannot run the engine by itself: runs are done one after the other.</source>
@@ -4140,6 +4176,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>The skin and what is kept solid leave nothing to fill: reduce the skin thickness, that of faces with their own, or what is kept solid.</source>
       <translation>Die Haut und was massiv bleibt, lassen nichts zu füllen: die Hautdicke verringern, die von Flächen mit eigener, oder was massiv bleibt.</translation>
+    </message>
+    <message>
+      <source>The skin is no thinner than {process} prints: {wall} mm.</source>
+      <translation>Die Haut ist nicht dünner, als {process} druckt: {wall} mm.</translation>
     </message>
     <message>
       <source>The void about {place} has room for {room} of its {wanted} drain holes: choose a smaller diameter, or give their places.</source>
@@ -4282,6 +4322,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>woraus es gemacht ist, hat sich geändert und ist noch nicht neu berechnet</translation>
     </message>
     <message>
+      <source>without them the limits cannot be held</source>
+      <translation>ohne sie sind die Grenzen nicht einzuhalten</translation>
+    </message>
+    <message>
       <source>{active} of {total} cells, {triangles} triangles, {mass} g in {seconds} s</source>
       <translation>{active} von {total} Zellen, {triangles} Dreiecke, {mass} g in {seconds} s</translation>
     </message>
@@ -4324,6 +4368,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>{name} has no values: write them as 6, 8, 10 or as 6 to 10 in 5.</source>
       <translation>{name} hat keine Werte: als 6, 8, 10 oder als 6 to 10 in 5 schreiben.</translation>
+    </message>
+    <message>
+      <source>{process} builds {degrees} degrees and more without support, and {area} mm2 of ceilings within its skin, which only struts hold, are flatter, as at {place}: another build direction may have less.</source>
+      <translation>{process} baut ab {degrees} Grad ohne Stützen, und {area} mm2 der Decken innerhalb der Haut, die nur Streben halten, sind flacher, etwa bei {place}: Eine andere Baurichtung hat vielleicht weniger davon.</translation>
+    </message>
+    <message>
+      <source>{process} builds {degrees} degrees and more without support, and {area} mm2 of the part's outside are flatter, as at {place}: another build direction may have less.</source>
+      <translation>{process} baut ab {degrees} Grad ohne Stützen, und {area} mm2 der Außenseite sind flacher, etwa bei {place}: Eine andere Baurichtung hat vielleicht weniger davon.</translation>
     </message>
     <message>
       <source>{removed} pieces that hang on nothing left out, {share} % of the lattice's volume: smaller cells or another origin may join them, and so does a skin.</source>
@@ -4407,6 +4459,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Find the radii now and stay in this panel; Cancel in the status bar keeps the best design so far</source>
       <translation>Die Radien jetzt finden und in diesem Fenster bleiben; Abbrechen in der Statusleiste behält den bisher besten Entwurf</translation>
+    </message>
+    <message>
+      <source>For printing</source>
+      <translation>Für den Druck</translation>
+    </message>
+    <message>
+      <source>For {process}, built along {direction}: {count} struts that lie flatter than {degrees} degrees were taken away.</source>
+      <translation>Für {process}, gebaut entlang {direction}: {count} Streben, die flacher als {degrees} Grad liegen, wurden entfernt.</translation>
     </message>
     <message>
       <source>Frequency, Hz</source>
@@ -4503,6 +4563,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Struts</source>
       <translation>Streben</translation>
+    </message>
+    <message>
+      <source>Struts and skin no thinner than the process prints, and none flatter as far as limits allow. The build direction is the infill's property BuildDirection</source>
+      <translation>Streben und Haut nicht dünner, als das Verfahren druckt, und keine Strebe flacher, soweit die Grenzen es erlauben. Die Baurichtung ist die Eigenschaft BuildDirection der Füllung</translation>
     </message>
     <message>
       <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>
@@ -4619,6 +4683,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>thickened with others</source>
       <translation>mit anderen verdickt</translation>
+    </message>
+    <message>
+      <source>{process}, built along {direction}: struts from {strut} mm thick and {degrees} degrees steep, walls from {wall} mm</source>
+      <translation>{process}, gebaut entlang {direction}: Streben ab {strut} mm Dicke und {degrees} Grad Steilheit, Wände ab {wall} mm</translation>
+    </message>
+    <message>
+      <source>{process}, built along {direction}: struts from {strut} mm thick, walls from {wall} mm</source>
+      <translation>{process}, gebaut entlang {direction}: Streben ab {strut} mm Dicke, Wände ab {wall} mm</translation>
     </message>
   </context>
   <context>

@@ -3344,6 +3344,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>E lungo z</translation>
     </message>
     <message>
+      <source>For printing</source>
+      <translation>Per la stampa</translation>
+    </message>
+    <message>
       <source>FreeCAD's own checks</source>
       <translation>Controlli di FreeCAD</translation>
     </message>
@@ -3472,6 +3476,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>instabilità, % del limite</translation>
     </message>
     <message>
+      <source>build direction</source>
+      <translation>direzione di costruzione</translation>
+    </message>
+    <message>
+      <source>builds without support from, degrees</source>
+      <translation>costruisce senza supporti da, gradi</translation>
+    </message>
+    <message>
       <source>bulk modulus</source>
       <translation>modulo di comprimibilità</translation>
     </message>
@@ -3534,6 +3546,18 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>every triangle keeps its corners</source>
       <translation>ogni triangolo conserva i suoi vertici</translation>
+    </message>
+    <message>
+      <source>flatter ceilings within the skin, mm2</source>
+      <translation>soffitti più piatti entro il guscio, mm2</translation>
+    </message>
+    <message>
+      <source>flatter parts of the outside, mm2</source>
+      <translation>parti esterne più piatte, mm2</translation>
+    </message>
+    <message>
+      <source>flatter struts removed</source>
+      <translation>aste più piatte tolte</translation>
     </message>
     <message>
       <source>found</source>
@@ -4018,6 +4042,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Nessun caso di carico è scelto: spuntarne almeno uno.</translation>
     </message>
     <message>
+      <source>No process is chosen to build for: choose one for the infill.</source>
+      <translation>Non è scelto alcun processo per cui costruire: sceglierne uno per il riempimento.</translation>
+    </message>
+    <message>
       <source>No strut of cells of {size} mm lies inside the skin: reduce the cell size or the skin thickness.</source>
       <translation>Nessuna asta di celle di {size} mm sta dentro il guscio: ridurre la dimensione delle celle o lo spessore del guscio.</translation>
     </message>
@@ -4086,6 +4114,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Ci sono aste di soli {thin} mm di spessore vicino a {place}, e {process} richiede {least} mm: aumentare il raggio.</translation>
     </message>
     <message>
+      <source>Struts are no thinner than {process} prints: {radius} mm in radius.</source>
+      <translation>Le aste non sono più sottili di quanto {process} stampa: {radius} mm di raggio.</translation>
+    </message>
+    <message>
       <source>Struts are only {gap} mm apart near {place}, and {process} wants {least} mm: they may fuse or hold powder; enlarge the cells.</source>
       <translation>Le aste distano solo {gap} mm vicino a {place}, e {process} richiede {least} mm: possono fondersi o trattenere polvere; ingrandire le celle.</translation>
     </message>
@@ -4096,6 +4128,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Struts of {diameter} mm are thinner than {process} prints: at least {least} mm.</source>
       <translation>Aste di {diameter} mm sono più sottili di quanto {process} stampi: almeno {least} mm.</translation>
+    </message>
+    <message>
+      <source>Struts that lie flatter than {process} builds stay: {reason}. Another cell, or another build direction, may have fewer of them.</source>
+      <translation>Le aste più piatte di quanto {process} costruisce restano: {reason}. Un'altra cella, o un'altra direzione di costruzione, può averne meno.</translation>
     </message>
     <message>
       <source>The Python that goes with this FreeCAD cannot run the engine by itself: runs are done one after the other.</source>
@@ -4140,6 +4176,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>The skin and what is kept solid leave nothing to fill: reduce the skin thickness, that of faces with their own, or what is kept solid.</source>
       <translation>Il guscio e ciò che resta pieno non lasciano nulla da riempire: ridurre lo spessore del guscio, quello delle facce con uno proprio, o ciò che resta pieno.</translation>
+    </message>
+    <message>
+      <source>The skin is no thinner than {process} prints: {wall} mm.</source>
+      <translation>Il guscio non è più sottile di quanto {process} stampa: {wall} mm.</translation>
     </message>
     <message>
       <source>The void about {place} has room for {room} of its {wanted} drain holes: choose a smaller diameter, or give their places.</source>
@@ -4282,6 +4322,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>ciò di cui è fatta è cambiato e non è ancora ricalcolato</translation>
     </message>
     <message>
+      <source>without them the limits cannot be held</source>
+      <translation>senza di esse i limiti non si possono rispettare</translation>
+    </message>
+    <message>
       <source>{active} of {total} cells, {triangles} triangles, {mass} g in {seconds} s</source>
       <translation>{active} celle su {total}, {triangles} triangoli, {mass} g in {seconds} s</translation>
     </message>
@@ -4324,6 +4368,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>{name} has no values: write them as 6, 8, 10 or as 6 to 10 in 5.</source>
       <translation>{name} non ha valori: scriverli come 6, 8, 10 o come 6 to 10 in 5.</translation>
+    </message>
+    <message>
+      <source>{process} builds {degrees} degrees and more without support, and {area} mm2 of ceilings within its skin, which only struts hold, are flatter, as at {place}: another build direction may have less.</source>
+      <translation>{process} costruisce senza supporti da {degrees} gradi, e {area} mm2 di soffitti entro il guscio, tenuti solo da aste, sono più piatti, come a {place}: un'altra direzione di costruzione può averne meno.</translation>
+    </message>
+    <message>
+      <source>{process} builds {degrees} degrees and more without support, and {area} mm2 of the part's outside are flatter, as at {place}: another build direction may have less.</source>
+      <translation>{process} costruisce senza supporti da {degrees} gradi, e {area} mm2 dell'esterno del pezzo sono più piatti, come a {place}: un'altra direzione di costruzione può averne meno.</translation>
     </message>
     <message>
       <source>{removed} pieces that hang on nothing left out, {share} % of the lattice's volume: smaller cells or another origin may join them, and so does a skin.</source>
@@ -4407,6 +4459,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Find the radii now and stay in this panel; Cancel in the status bar keeps the best design so far</source>
       <translation>Trova ora i raggi e resta in questo pannello; Annulla nella barra di stato tiene il progetto migliore finora</translation>
+    </message>
+    <message>
+      <source>For printing</source>
+      <translation>Per la stampa</translation>
+    </message>
+    <message>
+      <source>For {process}, built along {direction}: {count} struts that lie flatter than {degrees} degrees were taken away.</source>
+      <translation>Per {process}, costruito lungo {direction}: {count} aste più piatte di {degrees} gradi sono state tolte.</translation>
     </message>
     <message>
       <source>Frequency, Hz</source>
@@ -4503,6 +4563,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Struts</source>
       <translation>Aste</translation>
+    </message>
+    <message>
+      <source>Struts and skin no thinner than the process prints, and none flatter as far as limits allow. The build direction is the infill's property BuildDirection</source>
+      <translation>Aste e guscio non più sottili di quanto il processo stampa, e nessuna asta più piatta, per quanto i limiti permettono. La direzione di costruzione è la proprietà BuildDirection del riempimento</translation>
     </message>
     <message>
       <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>
@@ -4619,6 +4683,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>thickened with others</source>
       <translation>ingrossato con gli altri</translation>
+    </message>
+    <message>
+      <source>{process}, built along {direction}: struts from {strut} mm thick and {degrees} degrees steep, walls from {wall} mm</source>
+      <translation>{process}, costruito lungo {direction}: aste da {strut} mm di spessore e {degrees} gradi di pendenza, pareti da {wall} mm</translation>
+    </message>
+    <message>
+      <source>{process}, built along {direction}: struts from {strut} mm thick, walls from {wall} mm</source>
+      <translation>{process}, costruito lungo {direction}: aste da {strut} mm di spessore, pareti da {wall} mm</translation>
     </message>
   </context>
   <context>

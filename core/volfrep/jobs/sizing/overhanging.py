@@ -47,20 +47,18 @@ def _largest(mesh: TriangleMesh) -> list[float]:
 
 
 def overhanging_skin(figures: dict[str, Any]) -> list[str]:
-    """A sentence on the skin that hangs over, of `building_figures`; none where none does."""
+    """Sentences on the skin that hangs over, of `building_figures`; none where none does."""
     said = []
     for name, what in (
-        ("outside", "of the part's outside"),
-        ("ceilings", "of the ceilings within its skin, which only struts hold,"),
+        ("outside", "the part's outside"),
+        ("ceilings", "ceilings within its skin, which only struts hold,"),
     ):
         found = figures.get(name)
         if found is not None and found["area_mm2"] > 0.0:
             x, y, z = found["middle_mm"]
-            said.append(f"{found['area_mm2']:,.0f} mm2 {what} (as at ({x:.4g}, {y:.4g}, {z:.4g}))")
-    if not said:
-        return []
-    return [
-        f"{figures['process']} builds no less than {figures['inclination_degrees']:g} degrees "
-        f"without support, and less steep are {' and '.join(said)}: 'volfrep orient' finds better "
-        "build directions."
-    ]
+            said.append(
+                f"{figures['process']} builds {figures['inclination_degrees']:g} degrees and more "
+                f"without support, and {found['area_mm2']:,.0f} mm2 of {what} are flatter, as at "
+                f"({x:.4g}, {y:.4g}, {z:.4g}): another build direction may have less."
+            )
+    return said

@@ -179,27 +179,30 @@ def size(
         finally:
             seconds["sizing"] += time.perf_counter() - start
 
-    made = _without_flat_struts(designed, spec, goal)
+    made, stays = _without_flat_struts(designed, spec, goal)
     start = time.perf_counter()
     before = _of_one_radius(made.task, made.search.sized.analysis)
     seconds["sizing"] += time.perf_counter() - start
-    return _record(made.task, made.search, made.proof, before, seconds)
+    return _record(made.task, made.search, made.proof, before, seconds, [*notes, *stays])
 
 
 def _without_flat_struts(
     designed: Callable[[LatticeSpec], _ProvedDesign], spec: LatticeSpec, goal: Goal
-) -> _ProvedDesign:
+) -> tuple[_ProvedDesign, list[str]]:
     """The design without struts that its process cannot build; with them where it does not hold.
 
     Args:
         designed: makes the design of a specification.
         spec: with all struts.
         goal: what is wanted.
+
+    Returns:
+        It, and why flat struts stay where they do.
     """
     building = goal.building
     steeper = None if building is None else building.without_flat_struts(spec)
     if steeper is None:
-        return designed(spec)
+        return designed(spec), []
     try:
         made = designed(steeper)
     except Cancelled:
@@ -209,15 +212,16 @@ def _without_flat_struts(
     else:
         sized = made.search.sized
         if sized.holds or sized.stopped == "cancelled":
-            return made
+            return made, []
         reason = "without them the limits cannot be held"
     whole = designed(spec)
     assert building is not None
-    whole.task.notes.append(
+    stays = (
         f"Struts that lie flatter than {building.process.name} builds stay: {reason}. Another "
         "cell, or another build direction, may have fewer of them."
     )
-    return whole
+    whole.task.notes.append(stays)
+    return whole, [stays]
 
 
 @dataclass(frozen=True, eq=False)
@@ -561,8 +565,9 @@ def _record(
     proof: dict[str, Any] | None,
     before: Analysis,
     seconds: dict[str, float],
+    built: list[str],
 ) -> SizedPart:
-    """The design as a graded lattice, and its report."""
+    """The design as a graded lattice, and its report; `built` says what its process asks for."""
     taken, radii = search.taken, search.sized.analysis.radii
     spec = task.infill.spec
     if taken is not None:
@@ -586,7 +591,9 @@ def _record(
         report["radius_list"] = list_figures(wanted, search.any_radii, search.sized.analysis)
     if task.goal.building is not None:
         report["building"] = building_figures(task.goal.building, task.infill)
-        report["notes"] += overhanging_skin(report["building"])
+        hanging = overhanging_skin(report["building"])
+        report["notes"] += hanging
+        report["building"]["notes"] = [*built, *hanging]
     if task.goal.printing is not None:
         report["as_printed"] = printed_figures(
             task.goal.printing,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""docs/commands/clicked.md anew, from what `make test-menu` has seen in each FreeCAD.
+"""The table of docs/commands/clicked.md anew, from what `make test-menu` has seen in each FreeCAD.
 
 First run it here, and with tools/freecad_in.sh in the others: what their runs left lies in build/.
 """
@@ -61,13 +61,14 @@ def page(runs: list[dict[str, Any]]) -> str:
 
 
 def main() -> None:
-    """Write the page, if every release was run."""
+    """Write the page's table, if every release was run; what follows it stays."""
     paths = [ROOT / "build" / folder / "gui" / "menu.json" for folder in FOLDERS]
     missing = [str(path.relative_to(ROOT)) for path in paths if not path.is_file()]
     if missing:
         sys.exit(f"menu-table: {', '.join(missing)} is missing: run `make test-menu` there.")
     runs = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
-    PAGE.write_text(page(runs), encoding="utf-8")
+    _, heading, rest = PAGE.read_text(encoding="utf-8").partition("\n## ")
+    PAGE.write_text(page(runs) + heading + rest, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -343,7 +343,7 @@ def colours_come(name, plain):
 @costly
 def colours(obj):
     """Coloured by radius, cell size and overhang, with a legend; the mouse reads off values."""
-    from freecad_volfrep.gui.draw.coloured_struts import legend
+    from freecad_volfrep.gui.draw.coloured_struts import legend, ticks
 
     view = obj.ViewObject
     Gui.Selection.clearSelection()
@@ -417,6 +417,9 @@ def colours(obj):
     check("a scale bar is as long as it says", abs(there / said - 1.0) < 0.1, f"{said}: {there}")
     check("of a constant the legend tells one number", [numbers_of(legend("A", *ends)) for ends in
           ((0.0, 2.0), (1.0, 1.0))] == [5, 1])  # fmt: skip
+    texts = [[text for _, text in ticks(*ends)] for ends in ((0.0, 150.43), (100.0, 100.4))]
+    check("its numbers are round and told apart", texts == [["0", "50", "100", "150"],
+          ["100", "100.1", "100.2", "100.3", "100.4"]], texts)  # fmt: skip
     dock.close()
     settle()
     check("the dock closes", wait_until(lambda: colours_dock() is None))

@@ -96,6 +96,8 @@ def size_and_take(doc, obj):
     steps = doc.UndoCount
     open_panel(obj)
     picture("sizing_1_panel")
+    title = sizing_panel().windowTitle()
+    check("its title has the command's whole name", title.startswith("Loads and Sizing: "), title)
     cases = part("Cases", QtGui.QListWidget)
     check("both analyses are offered", [cases.item(k).text() for k in range(cases.count())]
           == ["bend", "light"])  # fmt: skip

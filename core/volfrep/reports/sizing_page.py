@@ -39,6 +39,7 @@ body{font:10.5pt/1.4 sans-serif;color:#111;max-width:190mm;margin:8mm auto;paddi
 h1{font-size:16pt;margin:0}h2{font-size:11.5pt;margin:5mm 0 1mm;border-bottom:1px solid #999}
 table{border-collapse:collapse;width:100%}td,th{padding:.6mm 2mm;text-align:left;
 vertical-align:top;border-bottom:1px solid #ddd}th{font-weight:600}
+td:first-child{white-space:nowrap}
 .verdict{font-size:12.5pt;font-weight:600;margin:2mm 0}.cases{display:flex;flex-wrap:wrap;gap:2%}
 figure{width:48%;margin:0 0 3mm}svg{width:100%;height:auto;max-height:75mm}
 figcaption{font-size:9.5pt}ul{margin:1mm 0;padding-left:5mm}

@@ -177,3 +177,11 @@ def place_text(point: Floats) -> str:
 def plural(count: int, one: str, many: str = "") -> str:
     """The count with its noun, as in '1 hole' and '2 holes'."""
     return f"{count:,} {one if count == 1 else many or one + 's'}"
+
+
+def round_values(low: float, high: float, lines: int) -> list[float]:
+    """About so many multiples of 1, 2 or 5 times a power of ten from one number to a larger one."""
+    step = (high - low) / lines
+    decade = 10.0 ** math.floor(math.log10(step))
+    step = min((m * decade for m in (1.0, 2.0, 5.0, 10.0)), key=lambda s: abs(s - step))
+    return [k * step for k in range(math.ceil(low / step), math.floor(high / step) + 1)]

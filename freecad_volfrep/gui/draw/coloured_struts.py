@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import FreeCAD as App
@@ -13,6 +15,7 @@ from numpy.typing import NDArray
 
 from freecad_volfrep.translation import figure
 from volfrep.mesh.shading import shade
+from volfrep.util.numbers import round_values
 
 from . import drawing
 from .prisms import CREASE_ANGLE, SIDES, prisms
@@ -30,8 +33,9 @@ COLOURS = np.array(
 LEFT, BOTTOM, WIDTH, HEIGHT = 0.03, 0.28, 0.018, 0.44
 #: Of names there are at most about so many.
 MOST_LINES = 12
-#: Its letters, which are of the system's own font, and its numbers.
-FONT, LETTERS, TICKS, DIGITS = "Sans", 13, 5, 3
+#: Its letters, which are of the system's own font, and its numbers, which are round but for both
+#: ends; a round one nearer to an end than this share of all would lie over it.
+FONT, LETTERS, TICKS, DIGITS, NEAR = "Sans", 13, 5, 3, 0.07
 #: The name of what colours them.
 INK = "VolfrepInk"
 #: A background is light from this on, of 1.
@@ -124,12 +128,24 @@ def legend(title: str, low: float, high: float) -> Any:
     strip.numVertices.setValue(2 * steps)
     bar = drawing.separate(binding, look, coordinates, strip)
     root = _flat(bar)
-    # Of a constant there is one number to tell.
-    for share in np.linspace(0.0, 1.0, TICKS) if high > low else (0.5,):
-        place = (LEFT + 1.5 * WIDTH, BOTTOM + share * HEIGHT - 0.008, 0.0)
-        root.addChild(_text(figure(low + share * (high - low), DIGITS), place))
+    for share, text in ticks(low, high):
+        root.addChild(_text(text, (LEFT + 1.5 * WIDTH, BOTTOM + share * HEIGHT - 0.008, 0.0)))
     root.addChild(_text(title, (LEFT, BOTTOM + HEIGHT + 0.03, 0.0)))
     return root
+
+
+def ticks(low: float, high: float) -> list[tuple[float, str]]:
+    """The numbers beside a scale and where they are, from 0 to 1: of a constant there is one."""
+    if high <= low:
+        return [(0.5, figure(low, DIGITS))]
+    between = round_values(low, high, TICKS - 1)
+    shares = [(value - low) / (high - low) for value in between]
+    kept = [value for value, at in zip(between, shares, strict=True) if NEAR <= at <= 1.0 - NEAR]
+    values = [low, *kept, high]
+    # As many digits as tell neighbours apart.
+    apart = min(b - a for a, b in pairwise(values))
+    digits = max(DIGITS, 1 + math.ceil(math.log10(max(abs(low), abs(high)) / apart)))
+    return [((value - low) / (high - low), figure(value, digits)) for value in values]
 
 
 def legend_of_names(title: str, names: Sequence[str]) -> Any:

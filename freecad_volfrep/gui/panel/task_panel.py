@@ -331,7 +331,7 @@ class TaskPanel:
         return not spec.kind.is_judged_by_preview
 
     def _build(self) -> Any:
-        form = PanelForm("VolfrepTaskPanel", self._obj.Label)
+        form = PanelForm("VolfrepTaskPanel", self._obj.Label, "lattice_infill")
         column = form.column
         self._recipes = RecipeRow(self._obj, self._show_all, partial(self._refuse, ""))
         column.addWidget(self._recipes)

@@ -271,7 +271,7 @@ class SizePanel:
             show_plot(title.format(label=self._obj.Label), sizing_plot(self._outcome.part.report))
 
     def _build(self, first: Mapping[str, float]) -> Any:
-        form = PanelForm("VolfrepSizePanel", self._title)
+        form = PanelForm("VolfrepSizePanel", self._title, "size_lattice")
         self._loads = LoadsBox(self._obj)
         self._lists = [self._loads.size, self._loads.direction]
         for box in (self._loads, self._material_box(), self._goal_box(first)):

@@ -10,6 +10,7 @@ from typing import Any
 from freecad_volfrep.gui.qt import QtCore, QtGui, QtWidgets
 from freecad_volfrep.gui.widgets.plot_colours import plot_colours
 from freecad_volfrep.translation import translate
+from volfrep.util.numbers import round_values
 
 #: Room for the axes' numbers, px: left, top, right, bottom.
 MARGINS = (72, 12, 14, 38)
@@ -128,7 +129,7 @@ class StudyPlot(QtWidgets.QWidget):
         ink, grid = self._drawn_in.ink, self._drawn_in.grid
         for k, name in enumerate(self._axes):
             low, high = self._span(name)
-            for value in _round_values(low, high):
+            for value in round_values(low, high, LINES):
                 share = (value - low) / (high - low)
                 if k == 0:
                     x = left + share * (width - left - right)
@@ -181,12 +182,3 @@ class StudyPlot(QtWidgets.QWidget):
 
 def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
-
-
-def _round_values(low: float, high: float) -> list[float]:
-    """Multiples of 1, 2 or 5 times a power of ten between two numbers."""
-    step = (high - low) / LINES
-    decade = 10.0 ** math.floor(math.log10(step))
-    step = min((m * decade for m in (1.0, 2.0, 5.0, 10.0)), key=lambda s: abs(s - step))
-    first = math.ceil(low / step)
-    return [k * step for k in range(first, math.floor(high / step) + 1)]

@@ -14,6 +14,8 @@ from freecad_volfrep.gui.qt import QtCore, QtGui, QtWidgets
 
 #: The longest title: FreeCAD widens a panel until its title has room.
 LONGEST_TITLE = 28
+#: What is left of a label says something from so many letters on.
+LEAST_LABEL = 6
 #: What a field shows at least, and what its frame, FreeCAD's sign for expressions and arrows take,
 #: px.
 LONGEST_NUMBER, SIGNS = "100.00 mm", 46
@@ -24,7 +26,8 @@ class PanelForm(QtWidgets.QWidget):
 
     Args:
         name: that it is found by.
-        title: shortened in its middle where it is long: the tree has all of it.
+        title: a label, or a command and the label that it is for, which is shortened in its middle
+            where it is long, or left out: the tree has it.
         icon: of its title: a file's name in `resources/icons`, without its suffix.
     """
 
@@ -33,9 +36,7 @@ class PanelForm(QtWidgets.QWidget):
         self.setObjectName(name)
         # A theme's style sheet fills a plain QWidget, but none of its subclasses unasked.
         self.setAttribute(QtCore.Qt.WA_StyledBackground)
-        ends = LONGEST_TITLE // 2 - 1
-        is_short = len(title) <= LONGEST_TITLE
-        self.setWindowTitle(title if is_short else f"{title[:ends]}\u2026{title[-ends:]}")
+        self.setWindowTitle(short_title(title))
         if icon:
             self.setWindowIcon(QtGui.QIcon(str(ICONS / f"{icon}.svg")))
         #: What the panel shows, from above.
@@ -48,6 +49,18 @@ class PanelForm(QtWidgets.QWidget):
             event.accept()
         else:
             super().keyPressEvent(event)
+
+
+def short_title(title: str) -> str:
+    """A title of a panel of at most `LONGEST_TITLE` letters, where its command has no more."""
+    command, colon, label = title.rpartition(": ")
+    room = LONGEST_TITLE - len(command) - len(colon)
+    if len(label) <= room:
+        return title
+    if room < LEAST_LABEL:
+        return command
+    ends = (room - 1) // 2
+    return f"{command}{colon}{label[: room - 1 - ends]}\u2026{label[len(label) - ends :]}"
 
 
 class _LeaveTheWheel(QtCore.QObject):

@@ -44,13 +44,15 @@ _POWER, _FALL = 3.0, 0.6
 HOLDS = 1.0 + 1e-3
 #: Steps without so much improvement end the search.
 _PATIENCE, _BETTER, _FEWEST = 8, 2e-3, 15
+#: So do so many in which neither the volume nor any radius changes by more than these parts.
+_STILL_STEPS, _STILL, _STILL_RADIUS = 2, 1e-4, 5e-3
 #: So many of the lightest designs are brought to their limits in the end.
 _KEPT = 3
 #: Steps in which single struts become thicker; so many more with a skin, for this part of the limit
 #: of stress.
 _THICKENINGS, _IN_A_SKIN, _BEYOND = 5, 30, 0.98
-#: Steps towards the limits by one factor.
-_SCALINGS = 14
+#: Steps towards the limits by one factor, which ends where it makes less of a difference in volume.
+_SCALINGS, _AS_LIGHT = 14, 1e-4
 
 
 @dataclass(frozen=True)
@@ -207,7 +209,7 @@ def lightest(
         limits = everything
     steps: list[Step] = []
     best: list[tuple[float, Floats, Floats]] = []
-    least, since, stopped = np.inf, 0, "steps"
+    least, since, still, stopped = np.inf, 0, 0, "steps"
     for number in range(most_steps):
         found, changes = analyse(problem, radii, limits, with_changes=True)
         assert changes is not None
@@ -225,11 +227,18 @@ def lightest(
         if not watch(number, steps[-1]):
             stopped = "cancelled"
             break
-        if least_of_all or (since >= _PATIENCE and number >= _FEWEST):
+        following = problem.smoothed(next_radii(problem, found, changes, limits))
+        moved = float(np.abs(following / radii - 1.0).max())
+        same = number > 0 and abs(volume / steps[-2].volume - 1.0) <= _STILL
+        still = still + 1 if near and same and moved <= _STILL_RADIUS else 0
+        is_over = since >= _PATIENCE and number >= _FEWEST
+        if least_of_all or is_over or still >= _STILL_STEPS:
             stopped = "converged"
             break
-        radii = problem.smoothed(next_radii(problem, found, changes, limits))
+        radii = following
     best = best or [(0.0, radii, radii)]
+    if still >= _STILL_STEPS:  # the lightest are one design
+        best = best[:1]
     tried = [scaled_to_limits(problem, limits, chosen) for _, chosen, _ in best]
     if problem.skin is not None:
         # A skin is most of the mass: it does not become thicker everywhere for a strut or two.
@@ -263,6 +272,11 @@ def scaled_to_limits(problem: Problem, limits: Limits, radii: Floats) -> tuple[A
         scaled = np.clip(radii * np.exp(log), problem.low, problem.high)
         return analyse(problem, scaled, limits)[0]
 
+    def no_lighter(log: float, found: Analysis) -> bool:
+        """Whether the factor that is expected to be left makes as good as no difference."""
+        scaled = np.clip(radii * np.exp(log) * _factor(found), problem.low, problem.high)
+        return problem.radii.volume(scaled) >= (1.0 - _AS_LIGHT) * found.volume
+
     # From radii that hold, or do not, to the other side in growing steps; then between the two.
     place, found = 0.0, at(0.0)
     most = float(np.log((problem.high / radii).max()))
@@ -274,6 +288,8 @@ def scaled_to_limits(problem: Problem, limits: Limits, radii: Floats) -> tuple[A
         else:
             light = place, found
         if 1.0 - 5e-4 <= found.most_used <= 1.0:
+            break
+        if heavy is not None and light is None and no_lighter(place, found):
             break
         if light is None:
             if place <= least:

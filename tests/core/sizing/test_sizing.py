@@ -16,6 +16,7 @@ from volfrep.jobs.sizing import radius_field
 from volfrep.mechanics.catalogue import joint_law
 from volfrep.mechanics.frame import SQUARE_SECTION
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.sizing import optimise
 from volfrep.sizing.analysis import Limits, Problem, analyse
 from volfrep.sizing.node_radii import (
     NodeRadii,
@@ -245,6 +246,20 @@ def test_limits_that_cannot_be_held_are_told():
         stiffest(problem, 1e9, radii)
     with pytest.raises(VolfrepError, match="above 0"):
         Limits(stress=-1.0)
+
+
+def test_a_search_whose_designs_stay_the_same_ends(monkeypatch):
+    """Of a part that all but its thinnest struts bear, it is as light as after many more steps."""
+    problem, start = cantilever("BCC", count=(3, 1, 1))
+    bare = analyse(problem, problem.low, Limits(stress=1.0))[0]
+    limits = Limits(stress=0.9 * bare.uses["stress"])
+    short = lightest(problem, limits, start)
+    monkeypatch.setattr(optimise, "_STILL", -1.0)
+    long = lightest(problem, limits, start)
+    assert short.stopped == long.stopped == "converged"
+    assert (short.holds, long.holds) == (True, True)
+    assert len(short.steps) < optimise._FEWEST < len(long.steps)
+    assert short.analysis.volume == pytest.approx(long.analysis.volume, rel=1e-4)
 
 
 @pytest.mark.costly

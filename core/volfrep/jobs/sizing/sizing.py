@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -45,6 +46,7 @@ from .notes import (
     too_dense,
     unproved,
 )
+from .one_radius import no_worse, of_less_volume, of_one_radius
 from .overhanging import building_figures, overhanging_skin
 from .part_model import given_radii, part_model, without_target
 from .printed import printed_figures, printed_note
@@ -181,7 +183,9 @@ def size(
 
     made, stays = _without_flat_struts(designed, spec, goal)
     start = time.perf_counter()
-    before = _of_one_radius(made.task, made.search.sized.analysis)
+    problem, volume = made.task.model.problem, made.search.sized.analysis.volume
+    with telling_free_motions(problem):
+        before = of_one_radius(problem, made.task.goal.limits, made.task.first, volume)
     seconds["sizing"] += time.perf_counter() - start
     return _record(made.task, made.search, made.proof, before, seconds, [*notes, *stays])
 
@@ -261,7 +265,8 @@ class _Search:
         model: what was solved last: without the struts that were taken away.
         sized: the design.
         whole: the design with all struts.
-        even: one radius for all that holds the limits, and whether it does; None without limits.
+        even: one radius for all that holds the limits, and whether it does; None without limits,
+            until `_with_even` where it has more volume.
         taken: what is left of the struts; None where none was taken away.
         any_radii: the design before its radii were those of a list; None without a list.
     """
@@ -319,7 +324,7 @@ def _find_proved(
         else:
             search = _search(tried, most_steps, watch)
         tried.notes.extend(_notes_of(tried, search))
-        made = _prove(tried, search, prove_it)
+        made = _with_even(tried, search, prove_it)
         if best is None or made.rank < best.rank:
             best = made
         if made.ratios is None:
@@ -423,9 +428,9 @@ def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | N
                 whole = _designed(problem, goal, task.first, most_steps, watched)
             else:
                 whole = _with_this_skin(task, task.skin, most_steps, watched)
-            even = uniform(problem, goal.limits) if goal.limits.any else None
+            even = of_less_volume(problem, goal.limits, whole) if goal.limits.any else None
         if even is not None:
-            whole = _no_worse(whole, even)
+            whole = no_worse(whole, even)
         sized, taken = whole, None
         if goal.remove_thin and whole.stopped != "cancelled":
             taken, sized = _without_thin(task, whole, most_steps, watched)
@@ -467,6 +472,17 @@ def _notes_of(task: _Task, search: _Search) -> list[str]:
     if sized.stopped == "cancelled":
         notes.append("The search was cancelled: this is the best design so far.")
     return notes
+
+
+def _with_even(task: _Task, search: _Search, prove_it: bool) -> _ProvedDesign:
+    """As `_prove`, with the one radius for all to compare with: CalculiX leaves a core free."""
+    problem, limits = task.model.problem, task.goal.limits
+    if search.even is not None or not limits.any:
+        return _prove(task, search, prove_it)
+    with ThreadPoolExecutor(1) as beside:
+        even = beside.submit(uniform, problem, limits)
+        made = _prove(task, search, prove_it)
+        return replace(made, search=replace(made.search, even=even.result()))
 
 
 def _prove(task: _Task, search: _Search, prove_it: bool) -> _ProvedDesign:
@@ -546,17 +562,6 @@ def _prove(task: _Task, search: _Search, prove_it: bool) -> _ProvedDesign:
     notes += hardly_beams(task.infill, model, final.radii, length)
     search = replace(search, sized=replace(sized, analysis=final))
     return _ProvedDesign(task, search, figures, ratios)
-
-
-def _of_one_radius(task: _Task, final: Analysis) -> Analysis:
-    """All struts of one radius, of the design's volume."""
-    problem, first = task.model.problem, task.first
-    same = problem.radii.scaled_to(
-        np.full(len(first), float(first.mean())),
-        final.volume, np.full(len(first), 1e-3 * float(first.min())), problem.high,
-    )  # fmt: skip
-    with telling_free_motions(problem):
-        return analyse(problem, same, task.goal.limits)[0]
 
 
 def _record(
@@ -654,14 +659,6 @@ def _designed(problem: Problem, goal: Goal, first: Floats, most_steps: int, watc
             "each."
         )
     return stiffest(problem, volume, first, weights=weights, most_steps=most_steps, watch=watch)
-
-
-def _no_worse(sized: Sized, even: tuple[Analysis, bool]) -> Sized:
-    """The design, or one radius for all where that holds the limits with less."""
-    one, holds = even
-    if holds and (not sized.holds or one.volume < sized.analysis.volume):
-        return replace(sized, analysis=one, holds=True)
-    return sized
 
 
 def _without_thin(

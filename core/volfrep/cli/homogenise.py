@@ -21,12 +21,11 @@ def run_homogenise(options: argparse.Namespace) -> int | None:
     """Run ``volfrep homogenise``."""
     from ..design.parameters.spec_file import write_values
     from ..jobs.homogenised import check_homogenised_file, homogenise_part
+    from ..jobs.result_files import values_with_radii, write_field
     from ..jobs.sized_field import (
         FIELD_GOALS,
         field_goal,
         homogenise_sized,
-        values_with_field,
-        write_field,
     )
     from ..loads.load_file import read_load_cases
 
@@ -65,7 +64,7 @@ def run_homogenise(options: argparse.Namespace) -> int | None:
     if options.radii is not None:
         write_field(made.spec, options.radii)
     if options.write_spec is not None:
-        write_values(values_with_field(made.spec, options.radii), options.write_spec)
+        write_values(values_with_radii(made.spec, options.radii), options.write_spec)
     print_warnings(made.report["notes"])
     if not options.quiet:
         print_rows(*made.rows())

@@ -42,14 +42,14 @@ def run_size(given: argparse.Namespace) -> int | None:
     """Run ``volfrep size``."""
     options = size_options(given)
 
+    from ..design.field_files import write_points
     from ..jobs.infill import Infill
+    from ..jobs.result_files import write_thickness
     from ..jobs.sizing import (
         check_file_proof,
         goal_of,
         prove_file,
         size,
-        write_radii,
-        write_thickness,
     )
     from ..loads.load_file import read_load_cases
     from ..output.file_size import fill_within
@@ -86,7 +86,7 @@ def run_size(given: argparse.Namespace) -> int | None:
         if options.thickness is not None:
             write_thickness(made.spec, options.thickness)
         if options.radii is not None:
-            write_radii(made, options.radii)
+            write_points(options.radii, made.points, made.radii, "radius")
             _write_specification(options, made)
         streamed = options.form.streamed and not options.prove_file
         streamed = streamed and options.building is None
@@ -204,9 +204,9 @@ def _write_specification(options: SizeOptions, made: SizedPart) -> None:
     if options.write_spec is None or options.radii is None:
         return
     from ..design.parameters.spec_file import write_values
-    from ..jobs.sizing import values_with_radii
+    from ..jobs.result_files import values_with_radii
 
-    values = values_with_radii(made, options.radii, options.thickness)
+    values = values_with_radii(made.spec, options.radii, options.thickness)
     write_values(values, options.write_spec)
 
 

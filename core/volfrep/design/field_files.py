@@ -22,6 +22,7 @@ from typing import TextIO
 import numpy as np
 
 from ..util.errors import VolfrepError
+from ..util.files import replacing
 from ..util.reading import regular_file
 from ..util.types import Floats
 from .vtk_files import MAX_POINTS, TOO_MANY, load_vtk
@@ -73,6 +74,28 @@ def read_points(path: str | os.PathLike[str], column: str | None) -> PointsAndVa
         return _read_vtk(file, column)
     except OSError as error:
         raise VolfrepError(f"Cannot read '{file}': {error.strerror or error}.") from error
+
+
+def write_points(
+    path: str | os.PathLike[str], points: Floats, values: Floats, name: str, digits: int = 9
+) -> None:
+    """Write a table of points (n, 3) and values (n,), mm, that `read_points` reads.
+
+    Args:
+        path: of the file; an old file stays if anything goes wrong.
+        points: where the values are.
+        values: to a millionth.
+        name: of the value's column.
+        digits: of the coordinates.
+
+    Raises:
+        VolfrepError: the file cannot be written.
+    """
+    row = f"{3 * f'%.{digits}g,'}%.6f\n"
+    table = np.column_stack([points, values]).tolist()
+    with replacing(path) as file:
+        file.write(f"x,y,z,{name}\n".encode())
+        file.writelines((row % tuple(values)).encode() for values in table)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,6 @@ homogenised anew it says what the field came to.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from numbers import Real
@@ -25,7 +24,6 @@ from ..continuum.thickness_field import (
     stiffest_field,
 )
 from ..design.grading import RadiusGrading
-from ..design.parameters.specification import values_of
 from ..design.profile import Profile
 from ..design.scattered_field import PointField
 from ..design.spec import LatticeSpec
@@ -34,7 +32,6 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..util.arguments import check_kind
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
-from ..util.files import replacing
 from ..util.numbers import number
 from ..util.progress import Monitor, ProgressCallback
 from ..util.types import Floats
@@ -317,21 +314,3 @@ def _check_limits(told: dict[str, Any], made: HomogenisedPart, goal: FieldGoal) 
         ]
     skin = ", or make the skin thicker" if made.spec.with_skin else ""
     return [f"{beyond}, and what governs is how thick {what} may be: allow thicker ones{skin}."]
-
-
-def write_field(spec: LatticeSpec, path: str | os.PathLike[str]) -> None:
-    """Write a sized field as a table that ``--radius-field`` reads: x, y, z and radius, mm."""
-    grading = spec.radius_grading
-    assert grading is not None
-    values = grading.field
-    assert isinstance(values, PointField)
-    table = np.column_stack([values.points, values.values])
-    with replacing(path) as file:
-        file.write(b"x,y,z,radius\n")
-        file.writelines(b"%.9g,%.9g,%.9g,%.6f\n" % tuple(row) for row in table.tolist())
-
-
-def values_with_field(spec: LatticeSpec, path: str | os.PathLike[str]) -> dict[str, Any]:
-    """What a specification's file says of a sized part whose field is in a file of its own."""
-    assert spec.radius_grading is not None
-    return values_of(replace(spec, radius_grading=replace(spec.radius_grading, field=str(path))))

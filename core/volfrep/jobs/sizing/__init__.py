@@ -6,7 +6,6 @@ from .building import Building
 from .file_proof import check_file_proof, prove_file
 from .goal import GOALS, Goal, goal_of
 from .printed import Printing, printed_note
-from .result_files import values_with_radii, write_radii, write_thickness
 from .sizing import (
     SizedPart,
     size,
@@ -26,7 +25,4 @@ __all__ = [
     "radius_field",
     "size",
     "solve_struts",
-    "values_with_radii",
-    "write_radii",
-    "write_thickness",
 ]

@@ -10,6 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from ...design.field_files import write_points
 from ...design.parameters.spec_file import write_values
 from ...design.spec import LatticeSpec
 from ...io.solid import Solid
@@ -18,9 +19,9 @@ from ...jobs.figures.properties import lattice_properties
 from ...jobs.infill import Infill
 from ...jobs.kinds import lattice_kind
 from ...jobs.preview import PartDepth
+from ...jobs.result_files import values_with_radii
 from ...jobs.sizing import size, solve_struts
 from ...jobs.sizing.goal import goal_of
-from ...jobs.sizing.result_files import values_with_radii, write_radii
 from ...jobs.targets import solve_target
 from ...loads.load_cases import LoadCases
 from ...loads.load_file import read_load_cases
@@ -260,8 +261,8 @@ def _size(bench: Evaluator) -> dict[str, Figure]:
         raise Cancelled("the study was cancelled")
     path = bench.file("sized", ".toml")
     radii = path.with_suffix(".csv")
-    write_radii(made, radii)
-    write_values(values_with_radii(made, radii), path)
+    write_points(radii, made.points, made.radii, "radius")
+    write_values(values_with_radii(made.spec, radii), path)
     report = made.report
     bench.notes["size"] = list(report["notes"])
     figures: dict[str, Figure] = {

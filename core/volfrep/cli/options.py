@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a command that makes a lattice was asked for: read once from argparse, and frozen.
 
-Everything that can be refused before any work is refused here. numpy and the engine are imported
-inside the functions, as in `command`.
+Everything that can be refused before any work is refused here. Fields that are called as an option
+hold what its row in `run_options` says. numpy and the engine are imported inside the functions, as
+in `command`.
 """
 
 from __future__ import annotations
@@ -58,8 +59,6 @@ class LatticeOptions:
 
     Attributes:
         spec: what to make, with the density of the material where none is given.
-        output: the file, or the folder of layers.
-        quiet: print nothing but errors.
         kept: the specification in force, where it is to be written.
     """
 
@@ -75,8 +74,6 @@ class MeshOptions(LatticeOptions):
 
     Attributes:
         form: of the output.
-        report: file for the figures; None for none.
-        picture: file for a picture; None for none.
         process: of the print report; None for none.
         build_direction: of it, from the build plate up.
         material: of a solver's deck.
@@ -103,15 +100,7 @@ class MeshOptions(LatticeOptions):
 
 @dataclass(frozen=True)
 class FillOptions(MeshOptions):
-    """Of `fill`.
-
-    Attributes:
-        part: file of the solid.
-        unit: of its lengths; None for what it says.
-        workers: processes that cut; None for as many as it is worth.
-        scheduler: of Dask, in their stead.
-        bare_surface: whether only the surface that sheets follow is written.
-    """
+    """Of `fill`."""
 
     part: str
     unit: str | None
@@ -133,15 +122,7 @@ class BlockOptions(MeshOptions):
 
 @dataclass(frozen=True)
 class SliceOptions(LatticeOptions):
-    """Of `slice`.
-
-    Attributes:
-        part: file of the solid.
-        unit: of its lengths; None for what it says.
-        form: of the layers.
-        layer: height of a layer, mm.
-        pixel: edge of a pixel, mm; None for the height of a layer.
-    """
+    """Of `slice`; `form` is that of the layers."""
 
     part: str
     unit: str | None
@@ -155,31 +136,14 @@ class SizeOptions(LatticeOptions):
     """Of `size`.
 
     Attributes:
-        part: file of the solid.
-        unit: of its lengths; None for what it says.
         form: of the output.
-        loads: file of load cases.
         goal: what is wanted, by its names in `jobs.sizing.GOALS`.
-        remove_thin: take away the thinnest struts, and size again.
         solid: the part becomes solid where no skin is enough.
         building: how the part is built; None where it does not count.
-        radius_list: the radii that may be, mm; empty for any.
-        symmetry: planes of symmetry; None for none.
         printing: how struts come out; None where they are taken as drawn.
-        steps: of the search, at most.
         prove: whether CalculiX solves the final design.
         prove_file: whether the finished file is solved as a solid.
-        voxel: edge of its voxels, mm; None for what suits the part.
-        radii: file for the radii; None for none.
-        thickness: file for the thickness of a skin that is sized; None for none.
         limits: of the file, kept by coarser facets.
-        write_spec: file for the specification with these radii; None for none.
-        report: file for the figures; None for none.
-        plot: file for mass and limits; None for none.
-        picture: file for a picture; None for none.
-        colour: what its colour tells.
-        case: load case of the picture; None for the first.
-        deformed: displacements drawn so many times as large.
     """
 
     part: str

@@ -16,11 +16,13 @@ from typing import Any
 import FreeCAD as App
 
 _TYPES = ("Mesh::FeaturePython", "App::FeaturePython")
-#: Properties by which our objects are known, whatever their proxies say.
-_INFILL = {"Fingerprint", "SchemaVersion", "StrutRadius", "Status"}
-_PRINT_CHECK = {"Infill", "Process", "Findings", "OverhangShare"}
-_SLICER_INFILL = {"Follows", "BandDensities", "ToldDensities", "Facets"}
-_STUDY = {"Infill", "Vary", "Fill", "Refused", "Table"}
+#: Properties by which objects of our classes are known, whatever their proxies say.
+_PROPERTIES = {
+    "LatticeInfill": {"Fingerprint", "SchemaVersion", "StrutRadius", "Status"},
+    "PrintCheck": {"Infill", "Process", "Findings", "OverhangShare"},
+    "SlicerInfill": {"Follows", "BandDensities", "ToldDensities", "Facets"},
+    "DesignStudy": {"Infill", "Vary", "Fill", "Refused", "Table"},
+}
 
 _watch: Watch | None = None
 
@@ -62,33 +64,21 @@ def revive(doc: App.Document) -> list[App.DocumentObject]:
     revived = []
     for obj in [obj for kind in _TYPES for obj in doc.findObjects(kind)]:
         names = set(obj.PropertiesList)
-        if names >= _INFILL:
-            from .features.infill.lattice_infill import LatticeInfill, say_revived
-            from .features.infill.properties import has_lost_results
-
-            kind = LatticeInfill
-            if has_lost_results(obj):
-                obj.touch()
-        elif names >= _PRINT_CHECK:
-            from .features.reports.print_check import PrintCheck
-
-            kind = PrintCheck
-        elif names >= _SLICER_INFILL:
-            from .features.export.slicer_infill import SlicerInfill
-
-            kind = SlicerInfill
-        elif names >= _STUDY:
-            from .features.study.design_study import DesignStudy
-
-            kind = DesignStudy
-        else:
+        name = next((name for name in _PROPERTIES if names >= _PROPERTIES[name]), None)
+        if name is None:
             continue
-        if isinstance(getattr(obj, "Proxy", None), kind):
-            continue
+        from . import features
+        from .features.infill.lattice_infill import say_revived
+        from .features.infill.properties import has_lost_results
         from .features.jobs.screen import revive_view
 
+        kind, is_infill = getattr(features, name), name == "LatticeInfill"
+        if is_infill and has_lost_results(obj):
+            obj.touch()
+        if isinstance(getattr(obj, "Proxy", None), kind):
+            continue
         kind(obj)
-        if names >= _INFILL:
+        if is_infill:
             say_revived(obj)
         revive_view(obj)
         obj.touch()

@@ -38,23 +38,12 @@ def _go_through(title: str, steps: Any) -> Any:
 
 
 def _attach_view(obj: App.DocumentObject) -> None:
-    from .gui import view_provider
+    from .gui.revived_view import view_of
 
-    getattr(view_provider, f"{type(obj.Proxy).__name__}View")(obj.ViewObject)
+    view_of(obj)(obj.ViewObject)
 
 
 def _revive_view(obj: App.DocumentObject) -> None:
-    from .gui.revived_view import (
-        revive_infill_view,
-        revive_print_check_view,
-        revive_slicer_infill_view,
-        revive_study_view,
-    )
+    from .gui.revived_view import revive_view
 
-    revive = {
-        "LatticeInfill": revive_infill_view,
-        "PrintCheck": revive_print_check_view,
-        "DesignStudy": revive_study_view,
-        "SlicerInfill": revive_slicer_infill_view,
-    }
-    revive[type(obj.Proxy).__name__](obj.ViewObject)
+    revive_view(obj)

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from ..design.spec import LatticeSpec
     from ..io.solid import Solid
-    from ..output.sources import FilledPart, Free
+    from ..output.sources import Block, FilledPart, FreeGraph
     from ..process.worker import Ending
     from ..reports.estimate import Estimate
     from ..reports.printability import PrintReport
@@ -151,7 +151,7 @@ def _fill_within(
 def _make_within(
     options: MeshOptions,
     expect: Callable[[LatticeSpec], float],
-    make: Callable[[LatticeSpec], FilledPart | Free],
+    make: Callable[[LatticeSpec], FilledPart | Block | FreeGraph],
     start: float,
     before: dict[str, float],
 ) -> None:
@@ -240,7 +240,10 @@ def run_network(given: argparse.Namespace) -> None:
 
 
 def _make(
-    part: FilledPart | Free, options: MeshOptions, start: float, before: dict[str, float]
+    part: FilledPart | Block | FreeGraph,
+    options: MeshOptions,
+    start: float,
+    before: dict[str, float],
 ) -> None:
     """Write a part in its form; tell what was made.
 

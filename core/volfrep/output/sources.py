@@ -36,6 +36,9 @@ if TYPE_CHECKING:
 class _OfResult:
     """What a source has of its result; a subclass says what that is."""
 
+    spec: LatticeSpec
+    count: Sequence[int] | None = None
+
     @property
     def executor(self) -> Executor | None:
         """As of `Source`."""
@@ -71,6 +74,13 @@ class _OfResult:
         """As of `Source`."""
         return self.result.report.volume_mm3
 
+    @property
+    def choice(self) -> ExportChoice:
+        """As of `Source`."""
+        from ..reports.estimate import ExportChoice
+
+        return ExportChoice(self.spec, self.count)
+
 
 class FilledPart(_OfResult):
     """A filled solid.
@@ -100,13 +110,6 @@ class FilledPart(_OfResult):
     def result(self) -> Result:
         """The mesh and its figures."""
         return self.infill.result
-
-    @property
-    def choice(self) -> ExportChoice:
-        """As of `Source`."""
-        from ..reports.estimate import ExportChoice
-
-        return ExportChoice(self.spec)
 
     @property
     def cavity(self) -> TriangleMesh | None:
@@ -163,30 +166,12 @@ class Free(_OfResult):
         progress: called with the fraction done and the stage; returning False cancels.
     """
 
-    count: Sequence[int] | None = None
     cavity: TriangleMesh | None = None
     solid: Solid | None = None
 
     def __init__(self, spec: LatticeSpec, progress: ProgressCallback | None = None) -> None:
         self.spec, self._progress = spec, progress
         self.monitor = Monitor(progress)
-
-    @property
-    def beams(self) -> BeamModel:
-        """As of `Source`."""
-        raise NotImplementedError
-
-    @property
-    def axes(self) -> Axes:
-        """As of `Source`."""
-        raise NotImplementedError
-
-    @property
-    def choice(self) -> ExportChoice:
-        """As of `Source`."""
-        from ..reports.estimate import ExportChoice
-
-        return ExportChoice(self.spec, self.count)
 
     @property
     def exact(self) -> ExactStruts:
@@ -228,7 +213,7 @@ class Block(Free):
     def __init__(self, made: BlockLattice, progress: ProgressCallback | None = None) -> None:
         super().__init__(made.spec, progress)
         self._made = made
-        self.count: Sequence[int] = made.count
+        self.count = made.count
 
     @cached_property
     def result(self) -> Result:
@@ -240,7 +225,7 @@ class Block(Free):
         """As of `Source`."""
         from ..jobs.beam_part import block_beams
 
-        return block_beams(self.spec, self.count)
+        return block_beams(self.spec, self._made.count)
 
     @property
     def axes(self) -> Axes:

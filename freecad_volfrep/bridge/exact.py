@@ -26,6 +26,7 @@ from volfrep.grid.strut_graph import Wireframe
 from volfrep.io.write.step_exact import Shared, joint_text, write_step_exact
 from volfrep.util.errors import VolfrepError
 from volfrep.util.files import check_writable
+from volfrep.util.numbers import place_text
 from volfrep.util.progress import Monitor
 
 Floats = NDArray[np.float64]
@@ -73,9 +74,9 @@ def write_exact(
             step, own_volume = joint_step(joint)
             texts.append(joint_text(joint, step, shared))
         except Unsuitable as error:
-            x, y, z = wireframe.nodes[joint.places[0]]
+            place = place_text(wireframe.nodes[joint.places[0]])
             raise VolfrepError(
-                f"The joint near ({x:.4g}, {y:.4g}, {z:.4g}) {error}: make the struts thinner, "
+                f"The joint near {place} {error}: make the struts thinner, "
                 "or use the faceted STEP form."
             ) from error
         volume += own_volume * len(joint.places)

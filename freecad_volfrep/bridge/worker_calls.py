@@ -22,6 +22,7 @@ from volfrep.grid.congruent_joints import Unsuitable, distinct_joints, refuse_ov
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.util.errors import VolfrepError
+from volfrep.util.numbers import place_text
 from volfrep.util.progress import Monitor, ProgressCallback
 
 from .exact import exact_lattice, joint_solid, write_exact
@@ -160,9 +161,9 @@ def packed_joints(
         try:
             solid = joint_solid(joint)
         except Unsuitable as error:
-            x, y, z = lattice.nodes[joint.places[0]]
+            place = place_text(lattice.nodes[joint.places[0]])
             raise VolfrepError(
-                f"The joint near ({x:.4g}, {y:.4g}, {z:.4g}) {error}: make the struts thinner."
+                f"The joint near {place} {error}: make the struts thinner."
             ) from error
         if len(inside):
             kinds.append((solid, lattice.nodes[inside]))

@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..util.numbers import place_text
+
 if TYPE_CHECKING:
     from ..reports.printability import PrintReport
     from ..reports.report import Report
@@ -122,7 +124,7 @@ def _removal_rows(report: Report) -> list[tuple[str, str]]:
     text = ", ".join(f"{count:,} {what}" for count, what in counts if count)
     result = [("removed", text)] if text else []
     if report.drain_holes:
-        places = ", ".join("({:.4g}, {:.4g}, {:.4g})".format(*hole) for hole in report.drain_holes)
+        places = ", ".join(map(place_text, report.drain_holes))
         result.append(("drain holes", f"{len(report.drain_holes)} at {places}"))
     return result
 

@@ -15,7 +15,7 @@ from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.content import content_of, freeze
 from ..util.errors import VolfrepError
 from ..util.linalg import along
-from ..util.numbers import direction, number, point, whole
+from ..util.numbers import direction, number, place_text, point, whole
 from ..util.types import Bools, Floats
 
 Vector = tuple[float, float, float]
@@ -62,7 +62,7 @@ class OpenPlane:
         return np.asarray(off[solid.triangles].all(axis=1) & level)
 
     def __str__(self) -> str:
-        return "the plane through ({:.4g}, {:.4g}, {:.4g})".format(*self.point)
+        return f"the plane through {place_text(self.point)}"
 
 
 @dataclass(frozen=True)
@@ -120,8 +120,7 @@ class OpenPatch:
         return {"facets": len(self.corners), "digest": digest.hexdigest()}
 
     def __str__(self) -> str:
-        middle = self.corners.reshape(-1, 3).mean(axis=0)
-        return "the face near ({:.4g}, {:.4g}, {:.4g})".format(*middle)
+        return f"the face near {place_text(self.corners.reshape(-1, 3).mean(axis=0))}"
 
 
 @dataclass(frozen=True)
@@ -149,7 +148,7 @@ class SmoothFace:
         return np.asarray(face == face[facet[0]])
 
     def __str__(self) -> str:
-        return "the point ({:.4g}, {:.4g}, {:.4g})".format(*self.point)
+        return f"the point {place_text(self.point)}"
 
 
 OpenFace = OpenPlane | OpenPatch | SmoothFace

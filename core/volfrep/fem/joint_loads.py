@@ -14,6 +14,7 @@ from scipy.spatial import cKDTree
 
 from ..grid.strut_graph import Wireframe
 from ..util.errors import VolfrepError
+from ..util.numbers import place_text
 from ..util.types import Floats, Ints
 from .model import StaticStep
 from .tet_mesh import TetrahedralMesh
@@ -58,9 +59,9 @@ def balls_of(filled: TetrahedralMesh, frame: Wireframe, joints: Ints) -> list[Ba
     for joint, rows in zip(joints.tolist(), found, strict=True):
         nodes = np.array(rows, np.int64)
         if not len(nodes):
-            x, y, z = frame.nodes[joint]
             raise VolfrepError(
-                f"The joint at ({x:.4g}, {y:.4g}, {z:.4g}) holds no node: is it the same lattice?"
+                f"The joint at {place_text(frame.nodes[joint])} holds no node: is it the same "
+                "lattice?"
             )
         balls.append(Ball(nodes, weight[nodes] / weight[nodes].sum()))
     return balls

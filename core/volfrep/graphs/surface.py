@@ -25,6 +25,7 @@ from ..mesh.topology import edges_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
+from ..util.numbers import place_text
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .clearance import too_near
@@ -113,10 +114,9 @@ def graph_surface(frame: Wireframe, sides: int, monitor: Monitor) -> GraphSurfac
                 break
             solo[frame.struts[lost]] = False
     if len(lost):
-        x, y, z = frame.nodes[frame.struts[lost[0]]].mean(axis=0)
+        place = place_text(frame.nodes[frame.struts[lost[0]]].mean(axis=0))
         raise VolfrepError(
-            f"Struts overlap so much about ({x:.4g}, {y:.4g}, {z:.4g}) that they cannot be united: "
-            "make them thinner."
+            f"Struts overlap so much about {place} that they cannot be united: make them thinner."
         )
     found = (int((~solo).sum()), np.flatnonzero(crowded), overlapping)
     rows = rows[solo[owner]]

@@ -16,6 +16,7 @@ from scipy.spatial import cKDTree
 
 from ..util.errors import VolfrepError
 from ..util.linalg import axes_across, times
+from ..util.numbers import place_text
 from ..util.types import Floats, Ints
 from .strut_graph import Wireframe
 
@@ -110,10 +111,9 @@ def refuse_overlaps(wireframe: Wireframe) -> None:
     one, two = _closest(start[a], end[a], start[b], end[b])
     gap = np.linalg.norm(one - two, axis=1) - radius[a] - radius[b]
     if (gap < 0).any():
-        x, y, z = one[np.argmin(gap)]
         raise VolfrepError(
-            f"Struts overlap near ({x:.4g}, {y:.4g}, {z:.4g}), where they have no joint: make "
-            "them thinner, or use the faceted STEP form."
+            f"Struts overlap near {place_text(one[np.argmin(gap)])}, where they have no joint: "
+            "make them thinner, or use the faceted STEP form."
         )
 
 

@@ -23,6 +23,7 @@ from ..octants.octant import Octant, OctantKey, frames
 from ..octants.sdf import Field, join, spheres, struts
 from ..util.errors import VolfrepError
 from ..util.linalg import normalize
+from ..util.numbers import place_text
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Floats, Ints
@@ -219,9 +220,9 @@ def _on_struts(
     room = strut.middle - begin
     tight = int(np.argmin(room / strut.radius))
     if room[tight] < LEAST_ROOM * strut.radius[tight]:
-        x, y, z = start[tight] + begin[tight] * axis[tight]
+        place = place_text(start[tight] + begin[tight] * axis[tight])
         raise VolfrepError(
-            f"Near ({x:.4g}, {y:.4g}, {z:.4g}) struts of radius {strut.radius[tight]:.3g} mm and "
+            f"Near {place} struts of radius {strut.radius[tight]:.3g} mm and "
             f"length {strut.length[tight]:.3g} mm grow into each other: reduce the radius or let "
             "the cells be larger there."
         )

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from ..mesh.remesh import facet_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
+from ..util.numbers import place_text
 from ..util.types import Bools, Floats, Ints
 from .load_cases import Force, Load, LoadCase, Pressure
 from .regions import NearPoint, Region, simple_regions
@@ -219,8 +220,8 @@ def _constraints(body: Body, case: LoadCase) -> tuple[Bools, Floats]:
             if len(other):
                 raise VolfrepError(
                     f"Load case '{case.name}': '{support.name}' moves the node at "
-                    f"{_place(body, int(other[0]))} by {value:g} mm along {'xyz'[axis]}, another "
-                    f"support by {prescribed[other[0], axis]:g} mm: keep one of them."
+                    f"{place_text(body.nodes[other[0]])} by {value:g} mm along {'xyz'[axis]}, "
+                    f"another support by {prescribed[other[0], axis]:g} mm: keep one of them."
                 )
             fixed[nodes, axis] = True
             prescribed[nodes, axis] = value
@@ -290,10 +291,7 @@ def _empty(body: Body, region: Region) -> VolfrepError:
     distance = region.distance(body.nodes)
     nearest = int(np.argmin(distance))
     return VolfrepError(
-        f"Nothing of the part lies in {region}: the nearest node, at {_place(body, nearest)}, is "
-        f"{distance[nearest]:.4g} mm off; check the place, in mm, or enlarge the region."
+        f"Nothing of the part lies in {region}: the nearest node, at "
+        f"{place_text(body.nodes[nearest])}, is {distance[nearest]:.4g} mm off; check the "
+        "place, in mm, or enlarge the region."
     )
-
-
-def _place(body: Body, node: int) -> str:
-    return "({:.4g}, {:.4g}, {:.4g})".format(*body.nodes[node])

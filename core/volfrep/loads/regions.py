@@ -20,6 +20,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import closest_points
 from ..util.content import content_of, freeze
 from ..util.errors import VolfrepError, listed
+from ..util.numbers import place_text
 from ..util.types import Bools, Floats
 
 Vector = tuple[float, float, float]
@@ -56,7 +57,7 @@ class InPlane:
         return np.asarray(near[mesh.triangles].all(axis=1) & along)
 
     def __str__(self) -> str:
-        return f"the plane through {_text(self.point)} across {_text(self.normal)}"
+        return f"the plane through {place_text(self.point)} across {place_text(self.normal)}"
 
 
 @dataclass(frozen=True)
@@ -75,8 +76,8 @@ class InBox:
         check_vector("corner of a box", self.high)
         if any(low > high for low, high in zip(self.low, self.high, strict=True)):
             raise VolfrepError(
-                f"The box from {_text(self.low)} to {_text(self.high)} is inside out: give its "
-                "lowest corner first."
+                f"The box from {place_text(self.low)} to {place_text(self.high)} is inside out: "
+                "give its lowest corner first."
             )
 
     def distance(self, points: Floats) -> Floats:
@@ -90,7 +91,7 @@ class InBox:
         return self.distance(facet_middles(mesh)) <= tolerance
 
     def __str__(self) -> str:
-        return f"the box from {_text(self.low)} to {_text(self.high)}"
+        return f"the box from {place_text(self.low)} to {place_text(self.high)}"
 
 
 @dataclass(frozen=True)
@@ -134,8 +135,8 @@ class InCylinder:
 
     def __str__(self) -> str:
         return (
-            f"the cylinder of radius {self.radius:.4g} mm about {_text(self.point)} along "
-            f"{_text(self.axis)}"
+            f"the cylinder of radius {self.radius:.4g} mm about {place_text(self.point)} along "
+            f"{place_text(self.axis)}"
         )
 
 
@@ -169,8 +170,8 @@ class NearPoint:
 
     def __str__(self) -> str:
         if self.within is None:
-            return f"the point {_text(self.point)}"
-        return f"the ball of radius {self.within:.4g} mm about {_text(self.point)}"
+            return f"the point {place_text(self.point)}"
+        return f"the ball of radius {self.within:.4g} mm about {place_text(self.point)}"
 
 
 @dataclass(frozen=True)
@@ -206,7 +207,7 @@ class OnFacets:
 
     def __str__(self) -> str:
         middle = self.corners.reshape(-1, 3).mean(axis=0)
-        return f"{self.name} near {_text(middle)}"
+        return f"{self.name} near {place_text(middle)}"
 
 
 @dataclass(frozen=True)
@@ -243,7 +244,7 @@ class OnLine:
         return np.zeros(len(mesh.triangles), bool)
 
     def __str__(self) -> str:
-        return f"{self.name} from {_text(self.points[0])} to {_text(self.points[-1])}"
+        return f"{self.name} from {place_text(self.points[0])} to {place_text(self.points[-1])}"
 
 
 @dataclass(frozen=True)
@@ -317,7 +318,3 @@ def _check_above_zero(name: str, value: float) -> None:
 def _unit(vector: Vector) -> Floats:
     result: Floats = np.array(vector, float) / np.linalg.norm(vector)
     return result
-
-
-def _text(point: Sequence[float] | Floats) -> str:
-    return "({:.4g}, {:.4g}, {:.4g})".format(*point)

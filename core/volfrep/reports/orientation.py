@@ -22,7 +22,7 @@ from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..util.errors import VolfrepError
 from ..util.linalg import normalize, rotation
-from ..util.numbers import number
+from ..util.numbers import number, place_text
 from ..util.progress import Monitor, ProgressCallback
 from ..util.showing import Shown
 from ..util.types import Bools, Floats, Ints
@@ -134,8 +134,7 @@ class Orientations(Shown):
         rows = [("directions", f"{self.tried:,} tried, below {self.inclination:g} degrees hangs")]
         rows.append(("sorted by", "cost: overhang, supports, height, footprint off the plate"))
         for name, one in named:
-            x, y, z = one.up
-            rows.append((name, f"cost {one.cost:.4f}, up ({x:.4g}, {y:.4g}, {z:.4g}){_turn(one)}"))
+            rows.append((name, f"cost {one.cost:.4f}, up {place_text(one.up)}{_turn(one)}"))
             inside = f", {one.inside_mm2:,.4g} of it in closed rooms" * bool(one.inside_mm2)
             rows.append(
                 (
@@ -405,8 +404,7 @@ def _turn(one: Orientation) -> str:
     """The turn in words; nothing where it stands so."""
     if one.angle < 1e-6:
         return ""
-    x, y, z = one.axis
-    return f": turn by {one.angle:.4g} degrees about ({x:.4g}, {y:.4g}, {z:.4g})"
+    return f": turn by {one.angle:.4g} degrees about {place_text(one.axis)}"
 
 
 def _three(vector: Floats | Ints) -> tuple[float, float, float]:

@@ -19,6 +19,7 @@ from ..grid.strut_graph import Wireframe
 from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import inside_points
+from ..util.numbers import place_text
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .clearance import endless_gap, narrowest_gap
@@ -369,4 +370,4 @@ def _findings(report: PrintReport) -> list[str]:
 
 
 def _place(point: tuple[float, float, float] | None) -> str:
-    return "-" if point is None else "({:.4g}, {:.4g}, {:.4g})".format(*point)
+    return "-" if point is None else place_text(point)

@@ -12,6 +12,7 @@ from ..loads.load_cases import LoadCases
 from ..sizing.analysis import Analysis
 from ..sizing.model import SizingModel
 from ..sizing.optimise import Sized
+from ..util.numbers import place_text
 from ..util.peaks import PEAKS
 
 #: Cantilevers of the six cells as second-order tetrahedra, sized and of one radius, gained at least
@@ -165,10 +166,9 @@ def sizing_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         whole, places = report["removed"]["with_them"], report["removed"].get("places", [])
         where = ""
         if places:
-            x, y, z = places[0]["middle_mm"]
             where = (
-                f" in {len(places)} places, {places[0]['struts']:,} about ({x:.4g}, {y:.4g}, "
-                f"{z:.4g})"
+                f" in {len(places)} places, {places[0]['struts']:,} about "
+                f"{place_text(places[0]['middle_mm'])}"
             )
         rows.append(
             (
@@ -270,11 +270,10 @@ def _limit(row: Mapping[str, Any]) -> str:
 
 def _solid(places: list[dict[str, Any]]) -> str:
     """How much is solid, in how many places, and where the heaviest lies."""
-    x, y, z = places[0]["middle_mm"]
     mass = sum(place["mass_g"] for place in places)
     return (
         f"{mass:.4g} g of the skin where both its sides meet, in {len(places)} places; the "
-        f"heaviest, {places[0]['mass_g']:.4g} g, about ({x:.4g}, {y:.4g}, {z:.4g})"
+        f"heaviest, {places[0]['mass_g']:.4g} g, about {place_text(places[0]['middle_mm'])}"
     )
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
@@ -169,7 +169,7 @@ def duration(seconds: float) -> str:
     return f"{round_off(seconds / 3600.0)} h"
 
 
-def place_text(point: Floats) -> str:
+def place_text(point: Iterable[float]) -> str:
     """A point for a message."""
     return "({:.4g}, {:.4g}, {:.4g})".format(*point)
 

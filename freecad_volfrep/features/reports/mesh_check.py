@@ -11,6 +11,7 @@ from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.infill.freshness import tell_stale
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from volfrep.util.errors import VolfrepError
+from volfrep.util.numbers import place_text, plural
 
 from .tables import Table
 
@@ -79,9 +80,7 @@ def _crossings(report: MeshReport, crossing: NDArray[np.float64]) -> list[tuple[
         lines = "every place inside is enclosed once"
     triangles = "none"
     if len(crossing):
-        x, y, z = crossing[0]
-        pairs = "1 pair" if len(crossing) == 1 else f"{len(crossing):,} pairs"
-        triangles = f"{pairs}, first near ({x:.4g}, {y:.4g}, {z:.4g})"
+        triangles = f"{plural(len(crossing), 'pair')}, first near {place_text(crossing[0])}"
     return [("along lines through it", lines), ("triangles that cross", triangles)]
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from ...mesh.topology import pieces_of
 from ...util.errors import VolfrepError
+from ...util.numbers import place_text
 from ...util.types import Floats, Ints
 from ..cells import NODE_TOLERANCE, UnitCell, find_same
 from .graph import MAX_STRUTS, GivenGraph, make_network
@@ -112,10 +113,10 @@ def place_cells_along(
     length = np.linalg.norm(places[rows[:, 0]] - places[rows[:, 1]], axis=1)
     usual = float(np.median(length))
     if length.min() < 1e-3 * usual:
-        x, y, z = places[rows[int(length.argmin()), 0]]
+        at = place_text(places[rows[int(length.argmin()), 0]])
         raise VolfrepError(
-            f"The {where} draws a cell together at ({x:.4g}, {y:.4g}, {z:.4g}): choose faces that "
-            "have four sides each and do not meet there."
+            f"The {where} draws a cell together at {at}: choose faces that have four sides each "
+            "and do not meet there."
         )
     merged = _merge_near(places, SAME_PLACE * float(length.min()))
     nodes, struts = _join_cells(places[inverse.ravel()], merged[inverse.ravel()], cell, total)
@@ -223,9 +224,9 @@ def _refuse_folded(at: Floats, shortest: Floats, where: str) -> None:
     # One that is a mirror image as a whole is none the worse.
     bad = np.flatnonzero(~((found > least).all(axis=0) | (found < -least).all(axis=0)))
     if len(bad):
-        x, y, z = at[bad[0]].mean(axis=0)
+        folded = place_text(at[bad[0]].mean(axis=0))
         raise VolfrepError(
-            f"In the {where}, hexahedron {bad[0]} at ({x:.4g}, {y:.4g}, {z:.4g}) is folded or has "
+            f"In the {where}, hexahedron {bad[0]} at {folded} is folded or has "
             "no volume: its corners must be numbered as in VTK, and it must be convex there."
         )
 

@@ -38,7 +38,7 @@ from ...spatial.proximity import closest_points
 from ...spatial.rays import inside_points
 from ...trim.finish import finish
 from ...util.errors import VolfrepError, listed
-from ...util.numbers import plural
+from ...util.numbers import place_text, plural
 from ...util.progress import Monitor, ProgressCallback
 from ...util.types import Floats, Ints
 from ..part_depth import PartDepth, Preview
@@ -403,19 +403,18 @@ def overlap_warnings(made: GraphSurface, frame: Wireframe) -> tuple[str, ...]:
     count = len(frame.struts)
     parts = []
     if len(made.crowded):
-        x, y, z = frame.nodes[frame.struts[made.crowded[0]]].mean(axis=0)
+        place = frame.nodes[frame.struts[made.crowded[0]]].mean(axis=0)
         parts.append(
             f"{plural(len(made.crowded), 'strut')} too short or too narrow at a joint, as at "
-            f"({x:.4g}, {y:.4g}, {z:.4g})"
+            f"{place_text(place)}"
         )
     if len(made.overlapping):
         one = made.overlapping[0, 0]
-        place = frame.nodes[frame.struts[one]].mean(axis=0) if one < count else None
-        place = frame.nodes[one - count] if place is None else place
-        x, y, z = place
+        own = frame.struts[one] if one < count else [one - count]
+        place = frame.nodes[own].mean(axis=0)
         parts.append(
             f"{plural(len(made.overlapping), 'pair')} of struts that run into each other, as at "
-            f"({x:.4g}, {y:.4g}, {z:.4g})"
+            f"{place_text(place)}"
         )
     return (f"United as they overlap: {listed(parts, 'and')}; thinner struts would not.",)
 

@@ -18,6 +18,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import numpy as np
+from lines_to_compare import gibson_ashby, hashin_shtrikman
 from matplotlib import pyplot as plt
 from matplotlib.colors import Normalize
 
@@ -25,7 +26,7 @@ from volfrep.design.cells import LIBRARY, PAPERS, USES, UnitCell
 from volfrep.mechanics import catalogue as shipped
 from volfrep.mechanics.endless import stretched_strains
 from volfrep.mechanics.materials import MATERIALS
-from volfrep.mechanics.tensor import gibson_ashby, hashin_shtrikman, moduli, young
+from volfrep.mechanics.tensor import moduli, young
 
 ROOT = Path(__file__).resolve().parent.parent
 IMAGES = ROOT / "docs" / "images"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What an elastic tensor says: moduli in any direction, averages, lines to compare it with.
+"""What an elastic tensor says: moduli in any direction, and averages.
 
 Tensors are (6, 6) stiffnesses in Voigt's order (xx, yy, zz, yz, xz, xy) with engineering shear
 strains; directions are unit vectors along the cell's edges x, y, z.
@@ -89,32 +89,6 @@ def cubic(c11: float, c12: float, c44: float) -> Floats:
     tensor = np.diag([c11 - c12] * 3 + [c44] * 3).astype(float)
     tensor[:3, :3] += c12
     return tensor
-
-
-def hashin_shtrikman(density: Floats, poisson: float = 0.3) -> tuple[Floats, Floats]:
-    """Upper bounds of E and G of isotropic porous bodies, for a solid with E = 1.
-
-    Hashin & Shtrikman, J. Mech. Phys. Solids 11 (1963) 127, with voids as the second phase.
-    """
-    density = np.asarray(density, float)
-    solid_bulk = 1.0 / (3.0 * (1.0 - 2.0 * poisson))
-    solid_shear = 1.0 / (2.0 * (1.0 + poisson))
-    void = 1.0 - density
-    shares = 3.0 * density / (3.0 * solid_bulk + 4.0 * solid_shear)
-    bulk = solid_bulk + void / (-1.0 / solid_bulk + shares)
-    factor = 6.0 * (solid_bulk + 2.0 * solid_shear) * density
-    factor = factor / (5.0 * solid_shear * (3.0 * solid_bulk + 4.0 * solid_shear))
-    shear = solid_shear + void / (-1.0 / solid_shear + factor)
-    return 9.0 * bulk * shear / (3.0 * bulk + shear), shear
-
-
-def gibson_ashby(density: Floats) -> tuple[Floats, Floats, Floats]:
-    """E, G (of the solid's E) and plastic strength (of its yield stress) of open-cell foams.
-
-    Gibson & Ashby, Cellular Solids (1997): density squared, 3/8 of that, 0.3 density^1.5.
-    """
-    density = np.asarray(density, float)
-    return density**2, 0.375 * density**2, 0.3 * density**1.5
 
 
 def modulus_along(tensor: Floats, target: Target) -> float:

@@ -9,6 +9,7 @@ import pytest
 
 import command
 import volfrep
+from tools.lines_to_compare import hashin_shtrikman
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.design.target import read_stiffness
 from volfrep.design.tpms import SURFACES, PeriodicSurface, TpmsSheet, find_surface
@@ -18,7 +19,6 @@ from volfrep.jobs.tpms.voxels import cut_into_voxels, of_density, tpms_density
 from volfrep.mechanics.assembly import nodes_of
 from volfrep.mechanics.conductance import conductance
 from volfrep.mechanics.homogenise import CUBIC_STRAINS, Grid, solve_grid
-from volfrep.mechanics.tensor import hashin_shtrikman
 from volfrep.spatial.even_points import even_points
 from volfrep.tpms.solid import TpmsSolid
 

@@ -7,16 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tools.lines_to_compare import gibson_ashby, hashin_shtrikman
 from volfrep import VolfrepError
 from volfrep.design.cells import LIBRARY
 from volfrep.mechanics.frame import CIRCLE, SQUARE_SECTION, Ends, PeriodicFrame, frame_tensor
 from volfrep.mechanics.joint_fit import fit_joint, periodic_frame
-from volfrep.mechanics.tensor import (
-    cubic,
-    gibson_ashby,
-    hashin_shtrikman,
-    moduli,
-)
+from volfrep.mechanics.tensor import cubic, moduli
 
 CATALOGUE = json.loads(Path(__file__).with_name("anisotropic_lattices.json").read_text())[
     "lattices"

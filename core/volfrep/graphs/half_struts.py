@@ -54,6 +54,15 @@ def ball_directions(sides: int) -> Floats:
     return np.stack([flat * np.cos(turn), flat * np.sin(turn), height], axis=1)
 
 
+def hull_of(ways: Floats) -> Ints:
+    """(m, 3) triangles of the hull of vectors (k, 3), counter-clockwise from outside."""
+    rows: Ints = ConvexHull(ways).simplices.astype(np.int64)
+    a, b, c = ways[rows].swapaxes(0, 1)
+    inward = (a * np.cross(b, c)).sum(axis=1) < 0.0
+    rows[inward] = rows[inward][:, ::-1]
+    return rows
+
+
 @lru_cache
 def ball_scale(sides: int) -> float:
     """By what a ball's vertices, on `ball_directions`, lie outside the sphere of its volume."""

@@ -15,14 +15,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.spatial import ConvexHull, cKDTree
+from scipy.spatial import cKDTree
 
 from ..grid.strut_graph import Wireframe
 from ..util.linalg import times
 from ..util.progress import Monitor
 from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
-from .half_struts import HalfStruts, ball_directions, ball_scale
+from .half_struts import HalfStruts, ball_directions, ball_scale, hull_of
 from .piece_fit import Pieces
 
 #: Vertices of a piece that are nearer than this, in units of the facets' edge, are one.
@@ -302,10 +302,7 @@ def _hull(ways: Floats, disc: Ints) -> Ints:
 
     None where they would not be those of a joint.
     """
-    rows = ConvexHull(ways / np.linalg.norm(ways, axis=1, keepdims=True)).simplices.astype(np.int64)
-    a, b, c = ways[rows].swapaxes(0, 1)
-    inward = (a * np.cross(b, c)).sum(axis=1) < 0.0
-    rows[inward] = rows[inward][:, ::-1]
+    rows = hull_of(ways / np.linalg.norm(ways, axis=1, keepdims=True))
     of = disc[rows]
     flat = (of[:, 0] >= 0) & (of[:, 0] == of[:, 1]) & (of[:, 1] == of[:, 2])
     _, corners = np.unique(disc[disc >= 0], return_counts=True)

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial import ConvexHull, cKDTree
+from scipy.spatial import cKDTree
 
 from ..grid.strut_graph import Wireframe
 from ..mesh.booleans import from_library, to_library
@@ -29,7 +29,14 @@ from ..util.numbers import place_text
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .clearance import too_near
-from .half_struts import HalfStruts, ball_directions, ball_scale, corner_scale, half_struts
+from .half_struts import (
+    HalfStruts,
+    ball_directions,
+    ball_scale,
+    corner_scale,
+    half_struts,
+    hull_of,
+)
 from .joints import creases, joint_pieces, seats
 
 if TYPE_CHECKING:
@@ -169,7 +176,7 @@ def _unite(
     fan = np.stack([np.zeros(sides - 2, np.int64), one[1:-1], one[2:]], axis=1)
     caps = (fan[:, ::-1], fan + sides)
     ball = ball_directions(sides)
-    hull = _outward(ball)
+    hull = hull_of(ball)
     pieces = []
     first = library.Manifold.reserve_ids(2 * len(struts) + len(nodes))
     for k in range(len(struts)):
@@ -203,14 +210,6 @@ def _piece(corners: Floats, rows: Ints, runs: tuple[int, ...], first: int) -> ma
         run_original_id=np.arange(first, first + len(runs), dtype=np.uint32),
     )
     return library.Manifold(source)
-
-
-def _outward(ways: Floats) -> Ints:
-    rows: Ints = ConvexHull(ways).simplices.astype(np.int64)
-    a, b, c = ways[rows].swapaxes(0, 1)
-    inward = (a * np.cross(b, c)).sum(axis=1) < 0.0
-    rows[inward] = rows[inward][:, ::-1]
-    return rows
 
 
 def _same_places(discs: Floats, united: TriangleMesh) -> Ints:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -64,18 +65,20 @@ class Placement:
 
 def placement_in(solid: TriangleMesh, grid: Grid, is_cut: bool, monitor: Monitor) -> Placement:
     """Where a lattice lies inside a solid, whose wall or skin cuts it or not."""
-
-    def depth(points: Floats) -> Floats:
-        # Of no use to blocks, and slow to import.
-        from ..spatial.proximity import closest_points
-        from ..spatial.rays import inside_points
-
-        inside = inside_points(solid, points, monitor)
-        result = np.zeros(len(points))
-        result[inside] = monitor.call(lambda: closest_points(solid, points[inside])[1])
-        return result
-
+    depth = partial(depth_below, solid, monitor)
     return Placement(grid.size, part_map(grid, solid.bounds), solid.bounds, depth, is_cut)
+
+
+def depth_below(solid: TriangleMesh, monitor: Monitor, points: Floats) -> Floats:
+    """(n,) depth of (n, 3) points below a solid's surface, mm; 0 outside."""
+    # Of no use to blocks, and slow to import.
+    from ..spatial.proximity import closest_points
+    from ..spatial.rays import inside_points
+
+    inside = inside_points(solid, points, monitor)
+    result = np.zeros(len(points))
+    result[inside] = monitor.call(lambda: closest_points(solid, points[inside])[1])
+    return result
 
 
 def part_map(grid: Grid, bounds: Floats) -> CoordinateMap | None:

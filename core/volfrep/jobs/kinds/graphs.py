@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from ...design.target import Target
 from ...graphs.random_graph import random_graph
 from ...graphs.surface import GraphSurface, graph_surface, sides_for
 from ...grid.coordinate_map import mapped_box
-from ...grid.placement import Placement, node_radii, part_map
+from ...grid.placement import Placement, depth_below, node_radii, part_map
 from ...grid.strut_graph import Wireframe
 from ...lattice.padded_grid import keeps_places
 from ...lattice.strut_volume import (
@@ -34,8 +34,6 @@ from ...lattice.strut_volume import (
 )
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.result import Result, report_of
-from ...spatial.proximity import closest_points
-from ...spatial.rays import inside_points
 from ...trim.finish import finish
 from ...util.errors import VolfrepError, listed
 from ...util.numbers import place_text, plural
@@ -286,13 +284,7 @@ def graph_struts(
     wanted = spec.network
     if isinstance(wanted, RandomGraph):
         domain = domain_of()
-
-        def depth(points: Floats) -> Floats:
-            inside = inside_points(domain, points, monitor)
-            found = np.zeros(len(points))
-            found[inside] = closest_points(domain, points[inside])[1]
-            return found
-
+        depth = partial(depth_below, domain, monitor)
         shortest = SHORTEST * spec.struts.extremes[1]
         nodes, struts = random_graph(wanted, domain, spec.cell_size, shortest, depth, monitor)
         return graph_wireframe(nodes, None, struts, spec, placement)

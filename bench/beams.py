@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Beams with stiff ends beside solid elements: how far apart their displacements are.
 
-    python bench/beams.py [--cells CVC Box] [--ratios 0.05 0.1] [--out build/beams.md]
+    python -m bench.beams [--cells CVC Box] [--ratios 0.05 0.1] [--out build/beams.md]
 
 A block of 2 x 1 x 1 cells is held at the joints of one end and pulled, then pushed sideways, at
 those of the other; the mean displacement there along the force is compared. The solid elements
@@ -25,11 +25,12 @@ from volfrep.design.cells import PAPERS
 from volfrep.fem.beam_mesh import JOINT_LENGTH, beam_model
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import write_beams, write_tetrahedra
-from volfrep.fem.joint_loads import balls_of, joint_displacements, joint_step
-from volfrep.fem.model import StaticStep
+from volfrep.fem.joint_loads import balls_of
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.jobs.blocks import block, block_wireframe
+
+from .static_step import StaticStep, joint_displacements, joint_step
 
 ROOT = Path(__file__).resolve().parent.parent
 Floats = np.ndarray
@@ -61,8 +62,9 @@ def beam_displacements(
 ) -> Floats:
     """(loaded, 3) mm."""
     model = beam_model(ends.frame, joint_length=joint_length)
+    write_beams(model, folder / "beams.inp")
     step = StaticStep(ends.fixed, ends.loaded, force)
-    write_beams(model, folder / "beams.inp", step=step)
+    step.add_to(folder / "beams.inp", of_beams=True)
     return solve(folder / "beams.inp")[ends.loaded]
 
 
@@ -71,8 +73,8 @@ def solid_displacements(
 ) -> Floats:
     """(loaded, 3) mm: the mean over each joint's ball."""
     fixed, loaded = (balls_of(filled, ends.frame, rows) for rows in (ends.fixed, ends.loaded))
-    step = joint_step(fixed, loaded, force)
-    write_tetrahedra(filled, folder / "solid.inp", step=step)
+    write_tetrahedra(filled, folder / "solid.inp")
+    joint_step(fixed, loaded, force).add_to(folder / "solid.inp", of_beams=False)
     return joint_displacements(solve(folder / "solid.inp"), loaded)
 
 

@@ -38,7 +38,7 @@ from volfrep.design.grading import CellMap, Orientation, RadiusGrading, SizeGrad
 from volfrep.design.profile import Profile
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import write_tetrahedra
-from volfrep.fem.joint_loads import balls_of, joint_step
+from volfrep.fem.joint_loads import balls_of
 from volfrep.fem.tet_mesh import tetrahedra
 from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.mesh.triangle_mesh import TriangleMesh
@@ -147,6 +147,9 @@ def deformed(picture: str) -> None:
 
     Gmsh and CalculiX must be installed; about half a minute.
     """
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    from bench.static_step import joint_step
+
     spec = LatticeSpec(cell="CVC", cell_size=20.0, strut_radius=2.0, resolution=20)
     count, force = (3, 2, 1), (200.0, 0.0, 0.0)
     mesh, frame = block(spec, count).mesh, block_wireframe(spec, count)
@@ -156,7 +159,8 @@ def deformed(picture: str) -> None:
     loaded = balls_of(filled, frame, np.flatnonzero(x > 60.0 - 1e-6))
     with tempfile.TemporaryDirectory() as folder:
         deck = Path(folder) / "sample.inp"
-        write_tetrahedra(filled, deck, step=joint_step(fixed, loaded, force))
+        write_tetrahedra(filled, deck)
+        joint_step(fixed, loaded, force).add_to(deck, of_beams=False)
         moved = solve(deck)
     own = moved[cKDTree(filled.nodes).query(mesh.vertices)[1]]
     size = np.linalg.norm(own, axis=1)

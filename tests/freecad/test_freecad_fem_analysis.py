@@ -7,6 +7,7 @@ import FreeCAD as App
 import numpy as np
 import pytest
 
+from bench.static_step import StaticStep
 from conftest import SMALL
 from freecad_volfrep import make_fem_analysis, make_lattice_infill
 from freecad_volfrep.features.export.fem_analysis import vertices
@@ -138,7 +139,6 @@ def test_beams_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     from volfrep.fem.beam_mesh import fitted_beams
     from volfrep.fem.calculix import solve
     from volfrep.fem.deck import write_beams
-    from volfrep.fem.model import StaticStep
     from volfrep.mechanics.materials import Material
 
     infill = block(doc, Resolution=8)
@@ -154,7 +154,8 @@ def test_beams_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     place = model.nodes[: model.joints, 0]
     fixed, loaded = np.flatnonzero(place < 0.01), np.flatnonzero(place > 60)
     step = StaticStep(fixed, loaded, (200.0, 0, 0))
-    write_beams(model, tmp_path / "own.inp", Material(), on_boundary=frame.on_boundary, step=step)
+    write_beams(model, tmp_path / "own.inp", Material(), on_boundary=frame.on_boundary)
+    step.add_to(tmp_path / "own.inp", of_beams=True)
     own = solve(tmp_path / "own.inp")[loaded, 0]
     # Round three-noded beams there, square two-noded ones here, each with ends of its own.
     assert freecad.mean() == pytest.approx(own.mean(), rel=0.06)
@@ -189,7 +190,6 @@ def test_tetrahedra_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     from freecad_volfrep.bridge.solids import mesh_in_document
     from volfrep.fem.calculix import solve
     from volfrep.fem.deck import sides, write_tetrahedra
-    from volfrep.fem.model import StaticStep
     from volfrep.fem.tet_mesh import tetrahedra
     from volfrep.mechanics.materials import Material
 
@@ -212,7 +212,8 @@ def test_tetrahedra_solved_by_freecad_and_by_our_own_deck(doc, tmp_path):
     side = sides(filled.nodes)
     assert np.count_nonzero(end) == len(side["XMAX"])
     step = StaticStep(side["XMIN"], side["XMAX"], (1000.0, 0, 0))
-    write_tetrahedra(filled, tmp_path / "own.inp", steel, step=step)
+    write_tetrahedra(filled, tmp_path / "own.inp", steel)
+    step.add_to(tmp_path / "own.inp", of_beams=False)
     own = solve(tmp_path / "own.inp")[side["XMAX"], 0]
     # FreeCAD spreads the force over the face's area, our deck over its nodes.
     assert moved[end, 0].mean() == pytest.approx(own.mean(), rel=0.5)

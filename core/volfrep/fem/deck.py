@@ -15,7 +15,6 @@ from ..util.files import replacing
 from ..util.text_rows import rows
 from ..util.types import Floats, Ints
 from .beam_mesh import BeamMesh
-from .model import StaticStep
 from .tet_mesh import TetrahedralMesh
 
 #: Side of the square whose second moment of area is that of a circle of radius 1.
@@ -49,14 +48,14 @@ def write_beams(
     material: Material | None = None,
     *,
     on_boundary: NDArray[np.bool_] | None = None,
-    step: StaticStep | None = None,
 ) -> None:
     """Write beams as elements B31.
 
     CalculiX expands beams into solid elements and offers round sections for the three-noded ones
     only, which take ten times as long to solve as two-noded ones. So the section is the square
     of the same second moment of area as the circle (2 % less area, 15 % less torsion); stresses
-    of the round strut follow from the section forces that the step writes.
+    of the round strut follow from the section forces. Constraints and loads are left to whoever
+    includes the deck.
 
     Node sets: NALL, JOINTS (the lattice's nodes), SKIN (its nodes on the skin, where given), and
     the nodes on the sides of the lattice's box: XMIN, XMAX, ... ZMAX. Element sets: EALL, STRUTS
@@ -67,7 +66,6 @@ def write_beams(
         path: of the file (.inp); an old file stays if anything goes wrong.
         material: of the struts.
         on_boundary: (joints,) bool, nodes that the skin holds.
-        step: what to solve; None leaves constraints and loads to whoever includes the deck.
 
     Raises:
         VolfrepError: the path cannot be written.
@@ -98,8 +96,6 @@ def write_beams(
                 f"*BEAM SECTION,ELSET={name},MATERIAL={of},SECTION=RECT\n"
                 f"{side:.10g},{side:.10g}\n{normal}\n".encode()
             )
-        if step is not None:
-            file.writelines(_step(step, rotations=True))
 
 
 def write_tetrahedra(
@@ -108,9 +104,8 @@ def write_tetrahedra(
     material: Material | None = None,
     *,
     sets: Mapping[str, Ints] | None = None,
-    step: StaticStep | None = None,
 ) -> None:
-    """Write second-order tetrahedra as elements C3D10.
+    """Write second-order tetrahedra as elements C3D10, without constraints and loads.
 
     Args:
         mesh: the tetrahedra.
@@ -118,7 +113,6 @@ def write_tetrahedra(
         material: of the part.
         sets: node sets by name, rows of the mesh's nodes; the sides of its box are added where
             they are not given.
-        step: what to solve; None leaves constraints and loads to whoever includes the deck.
 
     Raises:
         VolfrepError: the path cannot be written.
@@ -131,8 +125,6 @@ def write_tetrahedra(
         file.writelines(element_block("C3D10", "EALL", number, mesh.elements))
         file.write(_material(material, 1.0, material.name))
         file.write(f"*SOLID SECTION,ELSET=EALL,MATERIAL={material.name}\n".encode())
-        if step is not None:
-            file.writelines(_step(step, rotations=False))
 
 
 def node_block(nodes: Floats) -> Iterator[bytes]:
@@ -197,7 +189,7 @@ def _opening(title: str, nodes: Floats, sets: Mapping[str, Ints]) -> Iterator[by
     for name, chosen in sets.items():
         if len(chosen):
             yield f"*NSET,NSET={name}\n".encode()
-            yield from _numbers(chosen)
+            yield from number_lines(chosen)
 
 
 def _material(material: Material, factor: float, name: str) -> bytes:
@@ -207,24 +199,7 @@ def _material(material: Material, factor: float, name: str) -> bytes:
     ).encode()
 
 
-def _step(step: StaticStep, *, rotations: bool) -> Iterator[bytes]:
-    yield b"*NSET,NSET=FIXED\n"
-    yield from _numbers(step.fixed)
-    yield b"*NSET,NSET=LOADED\n"
-    yield from _numbers(step.loaded)
-    yield f"*BOUNDARY\nFIXED,1,{6 if rotations else 3}\n*STEP\n*STATIC\n*CLOAD\n".encode()
-    for axis, force in enumerate(step.force, 1):
-        if force and step.shares is not None:
-            yield from rows(f"%d,{axis},%.12g\n", step.loaded + 1, force * step.shares)
-        elif force:
-            yield f"LOADED,{axis},{force / len(step.loaded):.12g}\n".encode()
-    forces = b"*NODE FILE,OUTPUT=2D\nU\n*EL FILE,SECTION FORCES\nS\n"
-    yield b"*NODE PRINT,NSET=NALL\nU\n"
-    yield forces if rotations else b"*NODE FILE\nU\n*EL FILE\nS\n"
-    yield b"*END STEP\n"
-
-
-def _numbers(chosen: Ints) -> Iterator[bytes]:
+def number_lines(chosen: Ints) -> Iterator[bytes]:
     """Node numbers, so many a line."""
     yield _lines((chosen + 1).tolist()).encode()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Holding and pulling a lattice at its joints, in a mesh of tetrahedra: beside a beam model.
+"""The nodes of a lattice's joints in a mesh of tetrahedra, to hold and pull it as a beam model is.
 
 A beam's joint is a point that is held or carries a force. In a solid it is a ball: all its nodes
 are held, or carry the force as their shares of the ball's volume, so that it acts at its middle.
@@ -16,7 +16,6 @@ from ..grid.strut_graph import Wireframe
 from ..util.errors import VolfrepError
 from ..util.numbers import place_text
 from ..util.types import Floats, Ints
-from .model import StaticStep
 from .tet_mesh import TetrahedralMesh
 
 #: Nodes outside a ball by this much, mm, still belong to it.
@@ -85,26 +84,3 @@ def side_joints(filled: TetrahedralMesh, frame: Wireframe) -> dict[str, Ints]:
             balls = balls_of(filled, frame, np.flatnonzero(on_side))
             sets[name] = np.unique(np.concatenate([ball.nodes for ball in balls]))
     return sets
-
-
-def joint_step(
-    fixed: list[Ball], loaded: list[Ball], force: tuple[float, float, float]
-) -> StaticStep:
-    """A step that holds some joints; others share a force equally.
-
-    Args:
-        fixed: joints that are held.
-        loaded: joints that carry the force.
-        force: (3,) N, the whole of it.
-    """
-    return StaticStep(
-        np.unique(np.concatenate([ball.nodes for ball in fixed])),
-        np.concatenate([ball.nodes for ball in loaded]),
-        force,
-        np.concatenate([ball.shares for ball in loaded]) / len(loaded),
-    )
-
-
-def joint_displacements(displacements: Floats, balls: list[Ball]) -> Floats:
-    """(n, 3) mm, the mean displacement of each joint's ball, from (nodes, 3) of all nodes."""
-    return np.array([ball.shares @ displacements[ball.nodes] for ball in balls])

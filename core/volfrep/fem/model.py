@@ -5,24 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..util.types import Bools, Floats, Ints
-
-
-@dataclass(frozen=True, eq=False)
-class StaticStep:
-    """One linear static step: some nodes held, a force shared by others.
-
-    Attributes:
-        fixed: rows of the nodes that neither move nor turn.
-        loaded: rows of the nodes that carry the force.
-        force: (3,) the whole force, N.
-        shares: (loaded,) what part of it each loaded node carries; None for equal parts.
-    """
-
-    fixed: Ints
-    loaded: Ints
-    force: tuple[float, float, float]
-    shares: Floats | None = None
+from ..util.types import Bools, Floats
 
 
 @dataclass(frozen=True, eq=False)

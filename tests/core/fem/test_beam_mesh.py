@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bench.static_step import StaticStep
 from volfrep import LatticeSpec
 from volfrep.fem.beam_mesh import JOINT_LENGTH, beam_model, fitted_beams
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import sides, write_beams
-from volfrep.fem.model import StaticStep
 from volfrep.grid.strut_graph import Wireframe
 from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.mechanics.materials import Material
@@ -108,10 +108,9 @@ def test_a_cantilever(tmp_path: Path, along):
     }
     for case, (way, displacement) in expected.items():
         force = way * (100 if case == "pull" else 1)
-        write_beams(
-            model, tmp_path / "beam.inp", STEEL,
-            step=StaticStep(np.array([0]), tip, tuple(force)),
-        )  # fmt: skip
+        write_beams(model, tmp_path / "beam.inp", STEEL)
+        step = StaticStep(np.array([0]), tip, tuple(force))
+        step.add_to(tmp_path / "beam.inp", of_beams=True)
         moved = solve(tmp_path / "beam.inp")[1] @ way
         # The square section has 2 % less area than the circle.
         assert moved == pytest.approx(displacement, rel=0.03)
@@ -121,9 +120,9 @@ def test_a_cantilever(tmp_path: Path, along):
 def test_a_stiff_end_does_not_bend(tmp_path: Path):
     """A cantilever with a stiff root is one that begins at the root's end."""
     model = beam_model(one_strut(50.0, (2.0, 2.0)), np.array([False, True]), joint_length=2.0)
-    write_beams(
-        model, tmp_path / "b.inp", STEEL, step=StaticStep(np.array([0]), np.array([1]), (0, 0, 1.0))
-    )
+    write_beams(model, tmp_path / "b.inp", STEEL)
+    step = StaticStep(np.array([0]), np.array([1]), (0, 0, 1.0))
+    step.add_to(tmp_path / "b.inp", of_beams=True)
     free, inertia, area = 46.0, np.pi * 4, np.pi * 4
     expected = free**3 / 3 / 210_000 / inertia + free / 0.9 / (210_000 / 2.6) / area
     assert solve(tmp_path / "b.inp")[1, 2] == pytest.approx(expected, rel=0.03)
@@ -134,10 +133,9 @@ def test_a_slender_cubic_lattice_is_as_stiff_as_theory(tmp_path: Path):
     """Pulled along its struts, a block of n x n cells is (n + 1) squared struts side by side."""
     frame = lattice("Box", (2, 2, 3), 20.0, 0.5)
     side = sides(frame.nodes)
-    write_beams(
-        beam_model(frame, joint_length=0.0), tmp_path / "box.inp", STEEL,
-        step=StaticStep(side["ZMIN"], side["ZMAX"], (0, 0, 900.0)),
-    )  # fmt: skip
+    write_beams(beam_model(frame, joint_length=0.0), tmp_path / "box.inp", STEEL)
+    step = StaticStep(side["ZMIN"], side["ZMAX"], (0, 0, 900.0))
+    step.add_to(tmp_path / "box.inp", of_beams=True)
     moved = solve(tmp_path / "box.inp")[side["ZMAX"], 2].mean()
     assert moved == pytest.approx(100 * 60 / 210_000 / (np.pi * 0.25), rel=0.03)
 

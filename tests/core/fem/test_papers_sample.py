@@ -12,13 +12,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bench.static_step import StaticStep, joint_displacements, joint_step
 from volfrep import LatticeSpec
 from volfrep.design.cells import LIBRARY
 from volfrep.fem.beam_mesh import beam_model
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import write_beams, write_tetrahedra
-from volfrep.fem.joint_loads import balls_of, joint_displacements, joint_step, side_joints
-from volfrep.fem.model import StaticStep
+from volfrep.fem.joint_loads import balls_of, side_joints
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.io.freecad_process import write_exact_step
 from volfrep.jobs.blocks import block, block_wireframe
@@ -44,7 +44,8 @@ def sample():
 def beams(sample, folder: Path, **options) -> np.ndarray:
     frame, fixed, loaded = sample
     path = folder / "beams.inp"
-    write_beams(beam_model(frame, **options), path, step=StaticStep(fixed, loaded, FORCE))
+    write_beams(beam_model(frame, **options), path)
+    StaticStep(fixed, loaded, FORCE).add_to(path, of_beams=True)
     return solve(path)[loaded, 0]
 
 
@@ -77,7 +78,8 @@ def test_solid_elements(sample, tmp_path: Path):
     filled = tetrahedra(block(SPEC, COUNT).mesh)
     ends = [balls_of(filled, frame, joints) for joints in (fixed, loaded)]
     path = tmp_path / "solid.inp"
-    write_tetrahedra(filled, path, step=joint_step(*ends, FORCE))
+    write_tetrahedra(filled, path)
+    joint_step(*ends, FORCE).add_to(path, of_beams=False)
     moved = joint_displacements(solve(path), ends[1])[:, 0]
     assert moved.mean() == pytest.approx(1.54, rel=0.02)
     assert np.sort(moved) == pytest.approx([0.95] * 2 + [1.84] * 4, rel=0.02)
@@ -119,7 +121,8 @@ def test_the_sides_of_a_decks_tetrahedra_hold_whole_joints(sample, tmp_path: Pat
     filled = tetrahedra(block(SPEC, COUNT).mesh)
     sets = side_joints(filled, frame)
     path = tmp_path / "solid.inp"
-    write_tetrahedra(filled, path, step=StaticStep(sets["XMIN"], sets["XMAX"], FORCE))
+    write_tetrahedra(filled, path)
+    StaticStep(sets["XMIN"], sets["XMAX"], FORCE).add_to(path, of_beams=False)
     moved = joint_displacements(solve(path), balls_of(filled, frame, loaded))[:, 0]
     assert moved.mean() == pytest.approx(1.53, rel=0.03)
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import samples
+from bench.static_step import StaticStep
 from volfrep import LatticeSpec
 from volfrep.fem import tet_mesh
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import sides, write_tetrahedra
 from volfrep.fem.fins import folded_facets
-from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import MAX_TRIANGLES, mend_surface, nodes_on, tetrahedra
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
@@ -79,7 +79,8 @@ def test_a_stretched_bar(tmp_path: Path):
     path = tmp_path / "bar.inp"
     # Held all over its end the bar cannot contract there: without lateral strain it can.
     step = StaticStep(side["XMIN"], side["XMAX"], (320.0, 0, 0))
-    write_tetrahedra(filled, path, Material("STEEL", 210_000.0, 0.0, 7.85), step=step)
+    write_tetrahedra(filled, path, Material("STEEL", 210_000.0, 0.0, 7.85))
+    step.add_to(path, of_beams=False)
     moved = solve(path)[side["XMAX"], 0]
     assert moved.mean() == pytest.approx(320 * 40 / 210_000 / 16, rel=0.02)
 

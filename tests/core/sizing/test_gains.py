@@ -11,13 +11,13 @@ import manifold3d
 import numpy as np
 import pytest
 
+from bench.static_step import StaticStep
 from samples import solid_block as block
 from volfrep import LatticeSpec
 from volfrep.design.cells import PAPERS
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import write_tetrahedra
 from volfrep.fem.joint_loads import balls_of
-from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import tetrahedra
 from volfrep.io.solid import check_solid
 from volfrep.jobs.infill import Infill
@@ -113,7 +113,8 @@ def solid_work(infill, shares, held, loaded, force, folder):
     fixed = np.unique(np.concatenate([ball.nodes for ball in balls_of(filled, frame, held)]))
     deck = folder / "solid.inp"
     step = StaticStep(fixed, nodes, force, parts)
-    write_tetrahedra(filled, deck, find_material("Ti-6Al-4V").for_solver(), step=step)
+    write_tetrahedra(filled, deck, find_material("Ti-6Al-4V").for_solver())
+    step.add_to(deck, of_beams=False)
     return float(parts @ solve(deck)[nodes] @ np.array(force))
 
 

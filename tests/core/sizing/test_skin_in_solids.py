@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import trimesh
 
+from bench.static_step import StaticStep
 from volfrep import LatticeSpec
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import write_tetrahedra
-from volfrep.fem.model import StaticStep
 from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
 from volfrep.io.solid import check_solid
 from volfrep.jobs.infill import Infill
@@ -73,6 +73,7 @@ def test_a_skinned_box_bends_as_its_tetrahedra_do(tmp_path: Path) -> None:
     held = np.flatnonzero(filled.nodes[:, 0] < 1e-5)
     deck = tmp_path / "solid.inp"
     step = StaticStep(held, loaded, FORCE, shares[loaded])
-    write_tetrahedra(filled, deck, material.for_solver(), step=step)
+    write_tetrahedra(filled, deck, material.for_solver())
+    step.add_to(deck, of_beams=False)
     theirs = float(shares @ solve(deck) @ np.array(FORCE))
     assert ours == pytest.approx(theirs, rel=0.05)

@@ -12,6 +12,8 @@ import FreeCAD as App
 
 #: mm/s2
 STANDARD_GRAVITY = 9806.65
+#: 0 degrees C in K, and 1 W in FreeCAD's own unit of power, kg mm2/s3.
+ZERO_CELSIUS, OWN_WATT = 273.15, 1e6
 
 
 def version() -> tuple[int, int]:
@@ -61,6 +63,27 @@ def set_in_unit(obj: App.DocumentObject, name: str, value: float, unit: str) -> 
     """Set a property to a value in a unit, which is a mere number of it in FreeCAD 0.20."""
     is_number = isinstance(getattr(obj, name), float)
     setattr(obj, name, value if is_number else App.Units.Quantity(f"{value!r} {unit}"))
+
+
+def celsius(value: float | App.Units.Quantity) -> float:
+    """A temperature's value, which FreeCAD has in K, in degrees C."""
+    return round(in_unit(value, "K") - ZERO_CELSIUS, 9)
+
+
+def set_celsius(obj: App.DocumentObject, name: str, value: float) -> None:
+    """Set a temperature to degrees C."""
+    set_in_unit(obj, name, value + ZERO_CELSIUS, "K")
+
+
+def watts(value: float | App.Units.Quantity) -> float:
+    """The value of a heat flow in W; FreeCAD 0.20 has mere numbers of its own unit of power."""
+    return in_unit(value, "W") / (OWN_WATT if isinstance(value, float) else 1.0)
+
+
+def set_watts(obj: App.DocumentObject, name: str, value: float) -> None:
+    """Set a heat flow to a value in W."""
+    own = OWN_WATT if isinstance(getattr(obj, name), float) else 1.0
+    set_in_unit(obj, name, value * own, "W")
 
 
 def prescribed(constraint: App.DocumentObject, axis: str) -> float | None:

@@ -173,6 +173,12 @@ SENTENCES = marked(
     "within its skin, which only struts hold, are flatter, as at {place}: another build direction "
     "may have less.",
     "No load case is chosen: tick at least one.",
+    "The load cases have heat alone: hold faces and load some, too.",
+    "The solid's conductivity is not known: type it in Loads and Sizing, W/(m K).",
+    "No load case has heat: give faces a temperature or a heat flow.",
+    "No heat has a temperature: give one to where the heat leaves.",
+    "Two load cases have heat, '{one}' and '{other}': choose one, or suppress the heat of the "
+    "other.",
     "Least mass needs a limit: of stress, displacement, buckling, frequency.",
     "The document has no load case: make one with Loads and Sizing, or an analysis with the FEM "
     "workbench, with constraints on the solid's faces, edges or vertices.",

@@ -10,9 +10,17 @@ from typing import Any
 
 import FreeCAD as App
 
-from freecad_volfrep.compat import gravity_of, in_unit, prescribed, prescribed_turn
+from freecad_volfrep.compat import (
+    celsius,
+    gravity_of,
+    in_unit,
+    prescribed,
+    prescribed_turn,
+    watts,
+)
 from volfrep.loads.load_cases import (
     Force,
+    Heat,
     Load,
     LoadCase,
     LoadCases,
@@ -27,6 +35,9 @@ from volfrep.util.errors import VolfrepError
 from .solids import edge_points, face_facets, vertex_point
 
 READ = "fixed, displacement, force, pressure, self-weight and rigid body"
+#: Kinds that say what is warm and what flows in.
+TEMPERATURE, HEAT_FLUX = "Fem::ConstraintTemperature", "Fem::ConstraintHeatflux"
+HEAT_KINDS = TEMPERATURE, HEAT_FLUX
 #: What a constraint may be: an acceleration is a vector.
 Read = Support | Load | App.Vector
 
@@ -38,7 +49,18 @@ def is_analysis(obj: App.DocumentObject) -> bool:
 
 def has_loads(analysis: App.DocumentObject) -> bool:
     """Whether an analysis has a constraint of a kind that is read, so that it may be a case."""
-    return any(kind_of(member) in _READERS for member in constraints_of(analysis))
+    return any(kind_of(member) in (*_READERS, *HEAT_KINDS) for member in constraints_of(analysis))
+
+
+def has_heat(analysis: App.DocumentObject) -> bool:
+    """Whether an analysis says what is warm."""
+    return any(kind_of(member) in HEAT_KINDS for member in constraints_of(analysis))
+
+
+def has_heat_alone(analysis: App.DocumentObject) -> bool:
+    """Whether an analysis says nothing but what is warm."""
+    kinds = {kind_of(member) for member in constraints_of(analysis)}
+    return bool(kinds) and kinds <= set(HEAT_KINDS)
 
 
 def load_cases_of(
@@ -49,7 +71,7 @@ def load_cases_of(
     """The load cases that some analyses are, in the coordinates of `frame`.
 
     All constraints of an analysis act together, as they do when FreeCAD solves it; its label is the
-    name of the case. What is suppressed is left out.
+    name of the case. What is suppressed is left out, and so is heat, which strains nothing here.
 
     Args:
         analyses: of the FEM workbench.
@@ -60,8 +82,65 @@ def load_cases_of(
         VolfrepError: an analysis has a constraint of another kind, no support or no load, or there
             is no one material.
     """
-    cases = tuple(_case(analysis, frame) for analysis in analyses)
-    return LoadCases(material or _one_material(analyses), cases)
+    loaded = [analysis for analysis in analyses if not has_heat_alone(analysis)]
+    if analyses and not loaded:
+        raise VolfrepError("The load cases have heat alone: hold faces and load some, too.")
+    cases = tuple(_case(analysis, frame) for analysis in loaded)
+    return LoadCases(material or _one_material(loaded), cases)
+
+
+def heat_of(
+    analyses: Sequence[App.DocumentObject],
+    frame: App.Placement,
+    conductivity: float,
+    material: SolidMaterial | None = None,
+) -> LoadCases:
+    """The heat of the one analysis that has some, in degrees C, without load cases.
+
+    Args:
+        analyses: of the FEM workbench.
+        frame: the coordinate system of the part.
+        conductivity: of the solid, W/(m K).
+        material: in place of the analyses' own.
+
+    Raises:
+        VolfrepError: none or several have heat, a constraint of it is not read, none has a
+            temperature, or there is no one material.
+    """
+    warm = [analysis for analysis in analyses if has_heat(analysis)]
+    if not warm:
+        raise VolfrepError("No load case has heat: give faces a temperature or a heat flow.")
+    if len(warm) > 1:
+        raise VolfrepError(
+            f"Two load cases have heat, '{warm[0].Label}' and '{warm[1].Label}': choose one, or "
+            "suppress the heat of the other."
+        )
+    heat = tuple(
+        _heat(constraint, frame)
+        for constraint in constraints_of(warm[0])
+        if kind_of(constraint) in HEAT_KINDS
+    )
+    return LoadCases(material or _one_material(warm), (), (), heat, conductivity)
+
+
+def _heat(constraint: App.DocumentObject, frame: App.Placement) -> Heat:
+    """A temperature, a heat flow, or a fluid beside faces.
+
+    Raises:
+        VolfrepError: it is of another type.
+    """
+    kind, region, name = constraint.ConstraintType, _region(constraint, frame), constraint.Label
+    if kind == "Temperature":
+        return Heat(region, temperature=celsius(constraint.Temperature), name=name)
+    if kind == "CFlux":
+        return Heat(region, power=watts(constraint.CFlux), name=name)
+    if kind == "Convection":
+        film = in_unit(constraint.FilmCoef, "W/m^2/K")
+        return Heat(region, temperature=celsius(constraint.AmbientTemp), name=name, film=film)
+    raise VolfrepError(
+        f"'{name}' is of the type {kind}, which is not read: of heat these are a temperature, a "
+        "concentrated heat flux and convection."
+    )
 
 
 def _case(analysis: App.DocumentObject, frame: App.Placement) -> LoadCase:
@@ -69,6 +148,8 @@ def _case(analysis: App.DocumentObject, frame: App.Placement) -> LoadCase:
     loads: list[Load] = []
     acceleration = App.Vector()
     for constraint in constraints_of(analysis):
+        if kind_of(constraint) in HEAT_KINDS:
+            continue
         read = _READERS.get(kind_of(constraint))
         if read is None:
             raise VolfrepError(

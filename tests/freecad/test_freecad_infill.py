@@ -80,7 +80,8 @@ def test_properties_are_grouped_and_described(infill):
     assert read_only == {p.name for p in PROPERTIES if p.group == RESULT}
     hidden = {p.name for p in PROPERTIES if "Hidden" in infill.getTypeOfProperty(p.name)}
     stored = {"SizedNodes", "SizedRadii", "SizedFor", "SizedLoads", "SizedStates", "SizingReport",
-              "SizedSkinPoints", "SizedSkin", "SizedLimits", "SizedSkinLimits"}  # fmt: skip
+              "SizedSkinPoints", "SizedSkin", "SizedLimits", "SizedSkinLimits",
+              "Conductivity"}  # fmt: skip
     assert hidden == {"Fingerprint", "SchemaVersion"} | stored
 
 

@@ -745,6 +745,70 @@ def make_more_cases(doc, obj):
     check("and shows the infill", shown)
 
 
+@costly
+def warm_by_clicks(doc, obj):
+    """A face is cooled, another heated, by clicks: temperatures in colours, told, kept, undone."""
+    before, steps = [one.Name for one in doc.Objects], doc.UndoCount
+    size = [getattr(obj.Base, name).Value for name in ("Length", "Width", "Height")]
+    top, front = (0.5 * size[0], 0.5 * size[1], size[2]), (0.5 * size[0], 0.0, 0.5 * size[2])
+    obj.PrintMaterial = "AlSi10Mg"
+    open_panel(obj)
+    loads = part("Loads", QtGui.QListWidget)
+    rows = lambda: [loads.item(k).text() for k in range(loads.count())]  # noqa: E731
+    check("heat is asked for where there is some", not part("SolveHeat").isVisible())
+    click(part("AddTemperature"))
+    click_in_view(front, lambda: rows() == ["Temperature 20 \u00b0C: Face3"])
+    click(part("AddHeat flow"))
+    click_in_view(top, lambda: len(rows()) == 2)
+    xdotool("type", "5")
+    check("a heat flow is typed in at once", wait_until(
+        lambda: rows()[1] == "Heat flow 5 W: Face6"), rows())  # fmt: skip
+    check("then it is", part("SolveHeat").isVisible())
+    picture("heat_1_rows")
+    said = part("HeatSaid")
+    answer_panel("OK")
+    check("a conductivity is asked for", wait_until(lambda: "onductivity" in said.text()))
+    click(part("Conductivity"))
+    xdotool("key", "ctrl+a")
+    xdotool("type", "120")
+    xdotool("key", "Tab")
+    click(part("SolveHeat"))
+    told = wait_until(lambda: said.text().startswith("Temperatures are 20 to "), 60)
+    check("it is solved", told, said.text())
+    figures["said of the heat"] = said.text()
+    check("colours open", wait_until(lambda: dock() is not None))
+    check("of temperatures", dock().findChild(QtGui.QComboBox, "Quantity").currentText()
+          == "Temperature")  # fmt: skip
+    check("with a legend", wait_until(lambda: "VolfrepLegend" in scene_names(), 60))
+    high = dock().findChild(QtGui.QDoubleSpinBox, "To")
+    check("whose scale is what was told", wait_until(
+        lambda: f"to {high.value():.4g}" in said.text()), (high.value(), said.text()))  # fmt: skip
+    settle()
+    picture("heat_2_solved")
+    figures["shades of the heat"] = shades("heat_2_solved", view_3d())
+    check("in colours", figures["shades of the heat"] > 150, figures["shades of the heat"])
+    pointed = dock().findChild(QtGui.QLabel, "Said")
+    move_mouse(view_3d().mapToGlobal(view_3d().rect().center()))
+    read = wait_until(lambda: pointed.text().endswith("\u00b0C under the mouse"))
+    check("the mouse reads degrees", read, pointed.text())
+    answer_panel("OK")
+    check("the panel closes", wait_until(lambda: sizing_panel() is None, 90))
+    check("and a report opens", wait_until(lambda: len(reports()) == 1, 60))
+    shown = reports()[0].text.toPlainText()
+    check("it has the resistance", "thermal resistance, K/W" in shown, shown)
+    picture("heat_3_report")
+    reports()[0].close()
+    settle()
+    kept = sorted({one.TypeId for one in doc.Objects if one.isDerivedFrom("Fem::Constraint")})
+    check("the document has the rows", kept == ["Fem::ConstraintTemperature"], kept)
+    check("the lattice is the same", not len(obj.SizedRadii) and obj.Status == "Up to date")
+    dock().close()
+    while doc.UndoCount > steps:
+        doc.undo()
+    check("undo takes the rows back", [one.Name for one in doc.Objects] == before)
+    check("and the colours", obj.ViewObject.ColourBy == "None", obj.ViewObject.ColourBy)
+
+
 def without_an_analysis(doc, obj):
     """Where nothing says what the part carries, Strut Results says so and changes nothing."""
     for analysis in [one for one in doc.Objects if one.isDerivedFrom("Fem::FemAnalysis")]:
@@ -784,6 +848,7 @@ run_checks(
         size_a_solid: boxed,
         open_and_size_the_bracket: None,
         make_more_cases: filled,
+        warm_by_clicks: filled,
         without_an_analysis: loaded,
         close_the_document: loaded,
     },

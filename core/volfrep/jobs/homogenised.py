@@ -181,9 +181,15 @@ def homogenise_part(
         model = continuum_model(infill, loads, element)
     for name, count in (("frequencies", frequencies), ("load_factors", load_factors)):
         whole(name.replace("_", " "), count, 0, MOST_MODES)
+        if count and not loads.cases:
+            raise VolfrepError(
+                f"There are {name.replace('_', ' ')} of load cases only, and there is heat alone."
+            )
     with monitor.stage("solving", 0.6, 0.8):
         warm, heat = _heat(model, loads)
-        states = solve_continuum(model, with_weights(loads).cases, monitor, warm=warm)
+        states: list[ContinuumState] = []
+        if loads.cases:
+            states = solve_continuum(model, with_weights(loads).cases, monitor, warm=warm)
     modes: list[tuple[str, Floats]] = []
     hertz: list[float] = []
     factors: list[list[float | None]] = [[] for _ in states]
@@ -218,6 +224,7 @@ def homogenise_part(
         ],
         "frequencies_hz": hertz,
         "heat": heat,
+        "temperatures": None if warm is None else [float(warm.min()), float(warm.max())],
         "resistance_k_w": _resistance(loads.heat, heat),
         "seconds": time.perf_counter() - start,
         "notes": _notes(infill, model),
@@ -354,6 +361,9 @@ def homogenised_rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         (f"heat {one['name']}", f"{one['temperature']:.5g} degrees, gives {one['power_w']:.4g} W")
         for one in report["heat"]
     ]
+    if report["temperatures"] is not None:
+        low, high = report["temperatures"]
+        rows.append(("temperatures", f"{low:.5g} to {high:.5g} degrees"))
     if report["resistance_k_w"] is not None:
         rows.append(("thermal resistance", f"{report['resistance_k_w']:.4g} K/W"))
     rows.append(("time", f"{report['seconds']:.3g} s"))

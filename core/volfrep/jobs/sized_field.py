@@ -189,6 +189,8 @@ def size_field(
 
     refuse_endless(spec)
     monitor, cache = monitor or Monitor(), cache or StageCache()
+    if not loads.cases:
+        raise VolfrepError("A field is sized for load cases, and there is heat alone: give one.")
     if any(case.heated for case in loads.cases):
         raise VolfrepError(
             "A field is not sized for the temperature of the heat: leave those cases out, and "

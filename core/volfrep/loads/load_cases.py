@@ -204,7 +204,7 @@ class LoadCases:
 
     Attributes:
         material: of skin and struts.
-        cases: each by itself; at least one.
+        cases: each by itself; at least one, unless there is heat.
         masses: of bodies that are attached in every case.
         heat: what is warm, and what flows in.
         conductivity: of the solid, W/(m K); None where there is no heat.
@@ -218,7 +218,7 @@ class LoadCases:
 
     def __post_init__(self) -> None:
         names = [case.name for case in self.cases]
-        if not names:
+        if not names and not self.heat:
             raise VolfrepError("There is no load case: give at least one.")
         twice = [name for k, name in enumerate(names) if name in names[:k]]
         if twice:

@@ -147,7 +147,7 @@ class _Reader:
             self.reference = _number(entries["reference"], "reference")
         common = self._supports(entries, where)
         tables = _tables(entries, "case", where)
-        if not tables:
+        if not tables and "heat" not in entries:
             raise VolfrepError("the file: it has no load case: begin one with [[case]].")
         cases = [
             case for k, table in enumerate(tables, 1) for case in self._cases(table, common, k)

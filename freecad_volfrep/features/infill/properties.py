@@ -185,6 +185,7 @@ PROPERTIES = (
     _internal("App::PropertyString", "SizedFor", "Of all that SizedStates are of", ""),
     _internal("App::PropertyString", "SizedLoads", "Of what the struts were sized for", ""),
     _internal("App::PropertyString", "SizingReport", "What was asked and found, as JSON", ""),
+    _internal("App::PropertyFloat", "Conductivity", "Of the solid, W/(m K); 0: not known", 0.0),
     _internal("App::PropertyInteger", "SchemaVersion", "Of this table", SCHEMA_VERSION),
 )
 

@@ -10,16 +10,25 @@ from typing import Any
 
 import FreeCAD as App
 
-from freecad_volfrep.bridge.fem_loads import constraints_of, kind_of
+from freecad_volfrep.bridge.fem_loads import TEMPERATURE, constraints_of, kind_of
 from freecad_volfrep.bridge.picked import faces_alike
-from freecad_volfrep.compat import in_unit, set_in_unit
+from freecad_volfrep.compat import (
+    celsius,
+    in_unit,
+    set_celsius,
+    set_in_unit,
+    set_watts,
+    watts,
+)
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, figure, translate
 
-HELD, FORCE, PRESSURE, WEIGHT = (
+HELD, FORCE, PRESSURE, WEIGHT, WARM, FLOW = (
     QT_TRANSLATE_NOOP("VolfrepLoads", "Held"),
     QT_TRANSLATE_NOOP("VolfrepLoads", "Force"),
     QT_TRANSLATE_NOOP("VolfrepLoads", "Pressure"),
     QT_TRANSLATE_NOOP("VolfrepLoads", "Weight"),
+    QT_TRANSLATE_NOOP("VolfrepLoads", "Temperature"),
+    QT_TRANSLATE_NOOP("VolfrepLoads", "Heat flow"),
 )
 #: What can be made, as `kind_of` knows it, and the function of FreeCAD's `ObjectsFem` for it.
 KINDS = {
@@ -27,9 +36,21 @@ KINDS = {
     FORCE: ("Fem::ConstraintForce", "makeConstraintForce"),
     PRESSURE: ("Fem::ConstraintPressure", "makeConstraintPressure"),
     WEIGHT: ("Fem::ConstraintSelfWeight", "makeConstraintSelfWeight"),
+    WARM: (TEMPERATURE, "makeConstraintTemperature"),
+    FLOW: (TEMPERATURE, "makeConstraintTemperature"),
 }
+#: What FreeCAD calls the two that are of one kind there.
+TYPES = {WARM: "Temperature", FLOW: "CFlux"}
 #: Property, unit and first value of those that have a size.
-SIZES = {FORCE: ("Force", "N", 100.0), PRESSURE: ("Pressure", "MPa", 1.0)}
+SIZES = {
+    FORCE: ("Force", "N", 100.0),
+    PRESSURE: ("Pressure", "MPa", 1.0),
+    WARM: ("Temperature", "\u00b0C", 20.0),
+    FLOW: ("CFlux", "W", 1.0),
+}
+#: Those that FreeCAD keeps in other units.
+_SET = {WARM: set_celsius, FLOW: set_watts}
+_READ = {WARM: celsius, FLOW: watts}
 #: Directions of a force by name; the first two are those of its faces.
 INTO, OUT_OF = (
     QT_TRANSLATE_NOOP("VolfrepLoads", "into the face"),
@@ -66,7 +87,8 @@ def make_case(doc: App.Document, like: App.DocumentObject | None = None) -> App.
 
 def load_kind(load: App.DocumentObject) -> str:
     """Which of `KINDS` it is, or an empty text for another constraint."""
-    return next((kind for kind, (named, _) in KINDS.items() if named == kind_of(load)), "")
+    found = [kind for kind, (named, _) in KINDS.items() if named == kind_of(load)]
+    return next((k for k in found if k not in TYPES or TYPES[k] == load.ConstraintType), "")
 
 
 def add_load(case: App.DocumentObject, kind: str) -> App.DocumentObject:
@@ -75,6 +97,8 @@ def add_load(case: App.DocumentObject, kind: str) -> App.DocumentObject:
 
     load = getattr(ObjectsFem, KINDS[kind][1])(case.Document, kind)
     case.addObject(load)
+    if kind in TYPES:
+        load.Label, load.ConstraintType = kind, TYPES[kind]
     if kind in SIZES:
         set_size(load, SIZES[kind][2])
     if kind == FORCE:
@@ -114,16 +138,24 @@ def toggle_face(
 
 
 def set_size(load: App.DocumentObject, size: float) -> None:
-    """Give a force in N, or a pressure in MPa, whose sign is its direction."""
-    name, unit, _ = SIZES[load_kind(load)]
-    set_in_unit(load, name, size, unit)
+    """Give a force in N, a pressure in MPa, degrees C or W; a sign is the direction."""
+    kind = load_kind(load)
+    name, unit, _ = SIZES[kind]
+    if kind in _SET:
+        _SET[kind](load, name, size)
+    else:
+        set_in_unit(load, name, size, unit)
     load.recompute()
 
 
 def size_of(load: App.DocumentObject) -> float | None:
-    """A force in N, a pressure in MPa; None for what has no size."""
+    """A force in N, a pressure in MPa, degrees C, W; None for what has no size."""
     kind = load_kind(load)
-    return in_unit(getattr(load, SIZES[kind][0]), SIZES[kind][1]) if kind in SIZES else None
+    if kind not in SIZES:
+        return None
+    name, unit, _ = SIZES[kind]
+    value = getattr(load, name)
+    return _READ[kind](value) if kind in _READ else in_unit(value, unit)
 
 
 def set_direction(load: App.DocumentObject, name: str) -> None:

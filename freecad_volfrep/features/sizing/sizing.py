@@ -21,6 +21,7 @@ from volfrep.design.parameters.specification import spec_value
 from volfrep.design.parameters.table import BY_NAME
 from volfrep.util.errors import VolfrepError
 
+from .heat import heat_loads
 from .sized_states import (
     is_sized_for,
     limits_of,
@@ -542,15 +543,17 @@ def carried_by(obj: App.DocumentObject, quantity: str) -> dict[str, Any]:
 
     Args:
         obj: a lattice infill.
-        quantity: one of `OF_LOADS` or `GOVERNING` there.
+        quantity: one of `OF_LOADS` or `GOVERNING` there, or `OF_HEAT`.
 
     Raises:
         VolfrepError: there is neither, or the loads make no sense.
     """
-    from volfrep.jobs.figures.point_values import GOVERNING
+    from volfrep.jobs.figures.point_values import GOVERNING, OF_HEAT
 
     if quantity in GOVERNING:
         return {"carried": limits_of(obj, quantity)}
+    if quantity == OF_HEAT:
+        return {"loads": heat_loads(obj, analyses_of(obj))}
     try:
         analyses = analyses_of(obj)
     except VolfrepError:

@@ -41,6 +41,7 @@ QUANTITY_NAMES = marked(
     "Governing limit",
     "Governing limit of the skin",
     "Field",
+    "Temperature",
 )
 #: What a legend says, marked for translation.
 TITLES = marked(
@@ -53,6 +54,7 @@ TITLES = marked(
     "Share of the buckling load",
     "Displacement, mm",
     "Field of the radius",
+    "Temperature, \u00b0C",
 )
 #: What is the skin's own.
 OF_SKIN = ("Skin", "Governing limit of the skin")
@@ -134,6 +136,11 @@ class Colouring:
         else:
             self._legend.remove()
 
+    def renew(self, quantity: str) -> None:
+        """Ask for a quantity anew: what it depends on beside the lattice is another."""
+        self._known = {key: known for key, known in self._known.items() if key[0] != quantity}
+        self.refresh()
+
     def range_of(self, known: PointValues) -> tuple[float, float]:
         """Where the scale begins and ends."""
         view = self._obj.ViewObject
@@ -169,14 +176,14 @@ class Colouring:
         return [] if self._part is None else self._part.shapes(self._kinds())
 
     def _kinds(self) -> tuple[int, ...]:
-        """The kinds of triangles that have the quantity: all hang over, only struts have a radius.
+        """The kinds that have the quantity: all hang over and are warm, only struts have a radius.
 
         A skin that is seen through stays so, but where its own thickness is shown.
         """
         from volfrep.reports.facet_roles import LATTICE, OUTSIDE, WALL
 
         view = self._obj.ViewObject
-        if view.ColourBy != "Overhang":
+        if view.ColourBy not in ("Overhang", "Temperature"):
             return (OUTSIDE,) if view.ColourBy in OF_SKIN else (LATTICE,)
         return (WALL, LATTICE) if view.Transparency else (OUTSIDE, WALL, LATTICE)
 
@@ -193,7 +200,7 @@ class Colouring:
     def _ask(self, quantity: str) -> None:
         """Have the values made beside the window."""
         from freecad_volfrep.features.sizing.sizing import carried_by
-        from volfrep.jobs.figures.point_values import GOVERNING, OF_LOADS, point_values
+        from volfrep.jobs.figures.point_values import GOVERNING, OF_HEAT, OF_LOADS, point_values
         from volfrep.process.worker import Call
 
         key = self._key
@@ -209,14 +216,14 @@ class Colouring:
             is_of_mesh = quantity == "Overhang"
             solid, spec, cache = (obj.Proxy.wanted if is_of_mesh else obj.Proxy.inputs)(obj)
             options: dict[str, Any] = {"cache": cache, "up": tuple(obj.BuildDirection)}
-            if quantity in (*OF_LOADS, *GOVERNING):
+            if quantity in (*OF_LOADS, *GOVERNING, OF_HEAT):
                 options.update(carried_by(obj, quantity))
         except VolfrepError as error:
             self.why, self._asked = localise(translate("VolfrepColours", str(error))), None
             tell_error(self.why)
             return
         kinds = self._kinds()
-        if quantity in OF_SKIN:  # flat faces have corners only
+        if quantity in (*OF_SKIN, OF_HEAT):  # flat faces have corners only
             part.refine(kinds, float(np.linalg.norm(np.ptp(solid.bounds, axis=0))) / SKIN_SIDES)
         arrays = part.points(kinds), part.normals(kinds)
 

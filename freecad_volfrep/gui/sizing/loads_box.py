@@ -8,14 +8,16 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.bridge.fem_loads import constraints_of, has_loads, is_analysis
+from freecad_volfrep.bridge.fem_loads import constraints_of, has_heat_alone, has_loads, is_analysis
 from freecad_volfrep.features.sizing.document_loads import (
     DIRECTIONS,
+    FLOW,
     FORCE,
     HELD,
     KINDS,
     PRESSURE,
     SIZES,
+    WARM,
     WEIGHT,
     add_load,
     direction_of,
@@ -53,15 +55,27 @@ TIPS = {
         "Click at faces in the view under pressure; Ctrl takes all alike",
     ),
     WEIGHT: QT_TRANSLATE_NOOP("VolfrepLoads", "The part's own weight, downwards"),
+    WARM: QT_TRANSLATE_NOOP(
+        "VolfrepLoads",
+        "Click at faces in the view that have this temperature; Ctrl takes all alike",
+    ),
+    FLOW: QT_TRANSLATE_NOOP(
+        "VolfrepLoads",
+        "Click at faces in the view through which this heat flows in; below 0, out",
+    ),
 }
 
 
 class LoadsBox(QtWidgets.QGroupBox):
     """The document's analyses, each a load case, and what is in the one that is chosen.
 
+    Its signal `changed` is sent when there is another load, or one has another size.
+
     Args:
         obj: the infill.
     """
+
+    changed = QtCore.Signal()
 
     def __init__(self, obj: App.DocumentObject) -> None:
         super().__init__(translate("VolfrepSizePanel", "Load cases"))
@@ -121,6 +135,7 @@ class LoadsBox(QtWidgets.QGroupBox):
                 self._add_row(case)
         self._cases.setCurrentRow(0)
         self._cases.currentRowChanged.connect(lambda _: self._show_loads())
+        self._cases.itemChanged.connect(lambda _: self.changed.emit())
         self._loads.currentRowChanged.connect(lambda _: self._show_load())
         self.size.valueChanged.connect(self._set_size)
         self.direction.currentIndexChanged.connect(lambda _: self._set_direction())
@@ -130,6 +145,11 @@ class LoadsBox(QtWidgets.QGroupBox):
         """The cases that are ticked."""
         rows = [self._cases.item(k) for k in range(self._cases.count())]
         return [self._case_of(row) for row in rows if row.checkState() == QtCore.Qt.Checked]
+
+    def has_heat_alone(self) -> bool:
+        """Whether the cases that are ticked say nothing but what is warm."""
+        cases = self.chosen()
+        return bool(cases) and all(has_heat_alone(case) for case in cases)
 
     def begin(self) -> None:
         """Where nothing says yet what the part carries: pick what is held."""
@@ -211,6 +231,7 @@ class LoadsBox(QtWidgets.QGroupBox):
         for load in self._made:
             load.ViewObject.Visibility = load in loads
         self._show_load()
+        self.changed.emit()
 
     def _show_load(self) -> None:
         """The size and direction of the one that is chosen."""
@@ -292,6 +313,7 @@ class LoadsBox(QtWidgets.QGroupBox):
         if load is not None and load_kind(load) in SIZES:
             set_size(load, value)
             self._loads.currentItem().setText(said_load(load))
+            self.changed.emit()
 
     def _set_direction(self) -> None:
         load, name = self._load(), self.direction.currentData()

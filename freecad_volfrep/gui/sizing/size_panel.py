@@ -43,6 +43,7 @@ from freecad_volfrep.gui.windows.report_window import show_report
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, spoken, translate
 from volfrep.util.errors import Cancelled, VolfrepError
 
+from .heat_box import HeatBox
 from .loads_box import LoadsBox
 
 #: The table of steps is brought up to date so often while they are made, ms.
@@ -176,6 +177,8 @@ class SizePanel:
 
         Stays open without any.
         """
+        if self._outcome is None and self._loads.has_heat_alone():
+            return self._take_heat()
         if self._outcome is None and not self._find():
             return False
         outcome = self._outcome
@@ -190,7 +193,26 @@ class SizePanel:
         self._doc.commitTransaction()
         self._close()
         label = self._obj.Label
-        show_report(self._title, f"{label} sizing", outcome.tables(), lambda: outcome.page(label))
+        tables = outcome.tables()
+        if self._heat.outcome is not None:
+            tables += self._heat.outcome.tables()
+        show_report(self._title, f"{label} sizing", tables, lambda: outcome.page(label))
+        return True
+
+    def _take_heat(self) -> bool:
+        """Keep what is warm, and report it: there is nothing to size for."""
+        if self._heat.outcome is None and not self._heat.solve():
+            return False
+        outcome = self._heat.outcome
+        assert outcome is not None
+        begin_update(self._obj, ended=self._show_mesh)
+        if not self._obj.isValid():
+            self._say(self._obj.Status, wrong=True)
+            return False
+        self._loads.end(is_kept=True)
+        self._doc.commitTransaction()
+        self._close()
+        show_report(self._title, f"{self._obj.Label} heat", outcome.tables())
         return True
 
     @property
@@ -273,8 +295,10 @@ class SizePanel:
     def _build(self, first: Mapping[str, float]) -> Any:
         form = PanelForm("VolfrepSizePanel", self._title, "size_lattice")
         self._loads = LoadsBox(self._obj)
-        self._lists = [self._loads.size, self._loads.direction]
-        for box in (self._loads, self._material_box(), self._goal_box(first)):
+        self._heat = HeatBox(self._obj, self._loads.chosen, self._loads.end_picking)
+        self._loads.changed.connect(self._heat.look)
+        self._lists = [self._loads.size, self._loads.direction, self._heat.conductivity]
+        for box in (self._loads, self._heat, self._material_box(), self._goal_box(first)):
             form.column.addWidget(box)
         heads = (translate("VolfrepSizePanel", text) for text in HEADER)
         self._table = table_of_rows("Steps", heads)

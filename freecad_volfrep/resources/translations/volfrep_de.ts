@@ -2106,6 +2106,14 @@
       <translation>Strebenradius, mm</translation>
     </message>
     <message>
+      <source>Temperature</source>
+      <translation>Temperatur</translation>
+    </message>
+    <message>
+      <source>Temperature, °C</source>
+      <translation>Temperatur, °C</translation>
+    </message>
+    <message>
       <source>The lattice is not the one that was sized any more: size it again.</source>
       <translation>Das Gitter ist nicht mehr das, das dimensioniert wurde: dimensionieren Sie es noch einmal.</translation>
     </message>
@@ -2720,6 +2728,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>{label} wird gefüllt</translation>
     </message>
     <message>
+      <source>Heat in {label}</source>
+      <translation>Wärme in {label}</translation>
+    </message>
+    <message>
       <source>Infill bands of {label}</source>
       <translation>Füllungsbänder von {label}</translation>
     </message>
@@ -2818,6 +2830,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Flächen in der Ansicht anklicken, die sich nicht bewegen; Strg nimmt alle gleichen</translation>
     </message>
     <message>
+      <source>Click at faces in the view that have this temperature; Ctrl takes all alike</source>
+      <translation>Flächen in der Ansicht anklicken, die diese Temperatur haben; Strg nimmt alle gleichen</translation>
+    </message>
+    <message>
+      <source>Click at faces in the view through which this heat flows in; below 0, out</source>
+      <translation>Flächen in der Ansicht anklicken, durch die diese Wärme hineinfließt; unter 0 hinaus</translation>
+    </message>
+    <message>
       <source>Click at faces in the view under pressure; Ctrl takes all alike</source>
       <translation>Flächen in der Ansicht anklicken, auf die Druck wirkt; Strg nimmt alle gleichen</translation>
     </message>
@@ -2828,6 +2848,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Force</source>
       <translation>Kraft</translation>
+    </message>
+    <message>
+      <source>Heat flow</source>
+      <translation>Wärmestrom</translation>
     </message>
     <message>
       <source>Held</source>
@@ -2852,6 +2876,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Size</source>
       <translation>Größe</translation>
+    </message>
+    <message>
+      <source>Temperature</source>
+      <translation>Temperatur</translation>
     </message>
     <message>
       <source>The part's own weight, downwards</source>
@@ -4038,6 +4066,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Es ist keine Probe gewählt: mindestens eine ankreuzen.</translation>
     </message>
     <message>
+      <source>No heat has a temperature: give one to where the heat leaves.</source>
+      <translation>Nirgends ist eine Temperatur gegeben: dort eine angeben, wo die Wärme hinausgeht.</translation>
+    </message>
+    <message>
+      <source>No load case has heat: give faces a temperature or a heat flow.</source>
+      <translation>Kein Lastfall hat Wärme: Flächen eine Temperatur oder einen Wärmestrom geben.</translation>
+    </message>
+    <message>
       <source>No load case is chosen: tick at least one.</source>
       <translation>Kein Lastfall ist gewählt: mindestens einen ankreuzen.</translation>
     </message>
@@ -4162,6 +4198,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Das Gitter besteht aus {bodies} Körpern, die sich nicht berühren: Nur die Haut des Teils hält sie zusammen.</translation>
     </message>
     <message>
+      <source>The load cases have heat alone: hold faces and load some, too.</source>
+      <translation>Die Lastfälle haben nur Wärme: auch Flächen halten und andere belasten.</translation>
+    </message>
+    <message>
       <source>The material Custom needs a file: choose its .toml or .json file as MaterialFile.</source>
       <translation>Der Werkstoff Custom braucht eine Datei: seine .toml- oder .json-Datei als MaterialFile wählen.</translation>
     </message>
@@ -4180,6 +4220,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>The skin is no thinner than {process} prints: {wall} mm.</source>
       <translation>Die Haut ist nicht dünner, als {process} druckt: {wall} mm.</translation>
+    </message>
+    <message>
+      <source>The solid's conductivity is not known: type it in Loads and Sizing, W/(m K).</source>
+      <translation>Die Leitfähigkeit des Werkstoffs ist nicht bekannt: sie in Lasten und Auslegung eingeben, W/(m K).</translation>
     </message>
     <message>
       <source>The void about {place} has room for {room} of its {wanted} drain holes: choose a smaller diameter, or give their places.</source>
@@ -4204,6 +4248,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>There is nothing to vary: choose a lattice infill as Infill.</source>
       <translation>Es gibt nichts zu variieren: eine Gitterfüllung als Infill wählen.</translation>
+    </message>
+    <message>
+      <source>Two load cases have heat, '{one}' and '{other}': choose one, or suppress the heat of the other.</source>
+      <translation>Zwei Lastfälle haben Wärme, '{one}' und '{other}': einen wählen, oder die Wärme des anderen unterdrücken.</translation>
     </message>
     <message>
       <source>Up to date</source>
@@ -4449,6 +4497,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Mit CalculiX prüfen</translation>
     </message>
     <message>
+      <source>Conductivity</source>
+      <translation>Leitfähigkeit</translation>
+    </message>
+    <message>
       <source>Displacement</source>
       <translation>Verschiebung</translation>
     </message>
@@ -4457,8 +4509,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Radien suchen</translation>
     </message>
     <message>
+      <source>Find temperatures</source>
+      <translation>Temperaturen suchen</translation>
+    </message>
+    <message>
       <source>Find the radii now and stay in this panel; Cancel in the status bar keeps the best design so far</source>
       <translation>Die Radien jetzt finden und in diesem Fenster bleiben; Abbrechen in der Statusleiste behält den bisher besten Entwurf</translation>
+    </message>
+    <message>
+      <source>Find the temperatures of the lattice as it is, and colour it</source>
+      <translation>Die Temperaturen des Gitters, wie es ist, finden und es danach einfärben</translation>
     </message>
     <message>
       <source>For printing</source>
@@ -4479,6 +4539,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Goal and limits</source>
       <translation>Ziel und Grenzen</translation>
+    </message>
+    <message>
+      <source>Heat enters and leaves through these faces alone: none is lost to air.</source>
+      <translation>Wärme kommt und geht nur durch diese Flächen: an die Luft geht keine verloren.</translation>
     </message>
     <message>
       <source>How many times the load may be before struts buckle, one alone or together; 0 for no limit</source>
@@ -4529,6 +4593,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Von der Haut sind {solid:.4g} g massiv von Seite zu Seite.</translation>
     </message>
     <message>
+      <source>Of the solid material, as its data sheet says</source>
+      <translation>Des massiven Werkstoffs, wie sein Datenblatt sie angibt</translation>
+    </message>
+    <message>
       <source>Plot</source>
       <translation>Diagramm</translation>
     </message>
@@ -4547,6 +4615,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Standard deviations</source>
       <translation>Standardabweichungen</translation>
+    </message>
+    <message>
+      <source>Steady heat</source>
+      <translation>Stationäre Wärme</translation>
     </message>
     <message>
       <source>Step</source>
@@ -4589,6 +4661,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Streben wegnehmen, die so dünn wie der kleinste Radius enden, und den Rest neu auslegen; behalten, wenn das leichter ist, oder steifer bei gleicher Masse</translation>
     </message>
     <message>
+      <source>Temperatures are {low} to {high} °C, {flow} W flow through.</source>
+      <translation>Die Temperaturen sind {low} bis {high} °C, {flow} W fließen hindurch.</translation>
+    </message>
+    <message>
       <source>The largest of any point under any case; 0 for no limit</source>
       <translation>Die größte jedes Punktes in jedem Fall; 0 für keine Grenze</translation>
     </message>
@@ -4603,6 +4679,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>The thinnest strut that the process prints</source>
       <translation>Die dünnste Strebe, die das Verfahren druckt</translation>
+    </message>
+    <message>
+      <source>Thermal resistance: {resistance} K/W.</source>
+      <translation>Wärmewiderstand: {resistance} K/W.</translation>
     </message>
     <message>
       <source>Thickest skin</source>

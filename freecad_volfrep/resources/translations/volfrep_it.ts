@@ -2106,6 +2106,14 @@
       <translation>Raggio delle aste, mm</translation>
     </message>
     <message>
+      <source>Temperature</source>
+      <translation>Temperatura</translation>
+    </message>
+    <message>
+      <source>Temperature, °C</source>
+      <translation>Temperatura, °C</translation>
+    </message>
+    <message>
       <source>The lattice is not the one that was sized any more: size it again.</source>
       <translation>Il reticolo non è più quello dimensionato: dimensionarlo di nuovo.</translation>
     </message>
@@ -2720,6 +2728,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Riempimento di {label}</translation>
     </message>
     <message>
+      <source>Heat in {label}</source>
+      <translation>Calore in {label}</translation>
+    </message>
+    <message>
       <source>Infill bands of {label}</source>
       <translation>Bande di riempimento di {label}</translation>
     </message>
@@ -2818,6 +2830,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Fare clic nella vista sulle facce che non si muovono; Ctrl prende tutte le uguali</translation>
     </message>
     <message>
+      <source>Click at faces in the view that have this temperature; Ctrl takes all alike</source>
+      <translation>Fare clic nella vista sulle facce che hanno questa temperatura; Ctrl prende tutte quelle uguali</translation>
+    </message>
+    <message>
+      <source>Click at faces in the view through which this heat flows in; below 0, out</source>
+      <translation>Fare clic nella vista sulle facce da cui entra questo calore; sotto 0, esce</translation>
+    </message>
+    <message>
       <source>Click at faces in the view under pressure; Ctrl takes all alike</source>
       <translation>Fare clic nella vista sulle facce sotto pressione; Ctrl prende tutte le uguali</translation>
     </message>
@@ -2828,6 +2848,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Force</source>
       <translation>Forza</translation>
+    </message>
+    <message>
+      <source>Heat flow</source>
+      <translation>Flusso di calore</translation>
     </message>
     <message>
       <source>Held</source>
@@ -2852,6 +2876,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Size</source>
       <translation>Valore</translation>
+    </message>
+    <message>
+      <source>Temperature</source>
+      <translation>Temperatura</translation>
     </message>
     <message>
       <source>The part's own weight, downwards</source>
@@ -4038,6 +4066,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Non è scelto alcun provino: spuntarne almeno uno.</translation>
     </message>
     <message>
+      <source>No heat has a temperature: give one to where the heat leaves.</source>
+      <translation>Nessuna temperatura è data: darne una dove il calore esce.</translation>
+    </message>
+    <message>
+      <source>No load case has heat: give faces a temperature or a heat flow.</source>
+      <translation>Nessun caso di carico ha calore: dare a delle facce una temperatura o un flusso di calore.</translation>
+    </message>
+    <message>
       <source>No load case is chosen: tick at least one.</source>
       <translation>Nessun caso di carico è scelto: spuntarne almeno uno.</translation>
     </message>
@@ -4162,6 +4198,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Il reticolo è fatto di {bodies} corpi che non si toccano: li tiene insieme solo il guscio del pezzo.</translation>
     </message>
     <message>
+      <source>The load cases have heat alone: hold faces and load some, too.</source>
+      <translation>I casi di carico hanno solo calore: vincolare delle facce e caricarne altre.</translation>
+    </message>
+    <message>
       <source>The material Custom needs a file: choose its .toml or .json file as MaterialFile.</source>
       <translation>Il materiale Custom richiede un file: scegliere il suo file .toml o .json come MaterialFile.</translation>
     </message>
@@ -4180,6 +4220,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>The skin is no thinner than {process} prints: {wall} mm.</source>
       <translation>Il guscio non è più sottile di quanto {process} stampa: {wall} mm.</translation>
+    </message>
+    <message>
+      <source>The solid's conductivity is not known: type it in Loads and Sizing, W/(m K).</source>
+      <translation>La conducibilità del materiale non è nota: scriverla in Carichi e dimensionamento, W/(m K).</translation>
     </message>
     <message>
       <source>The void about {place} has room for {room} of its {wanted} drain holes: choose a smaller diameter, or give their places.</source>
@@ -4204,6 +4248,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>There is nothing to vary: choose a lattice infill as Infill.</source>
       <translation>Non c'è nulla da variare: scegliere un riempimento reticolare come Infill.</translation>
+    </message>
+    <message>
+      <source>Two load cases have heat, '{one}' and '{other}': choose one, or suppress the heat of the other.</source>
+      <translation>Due casi di carico hanno calore, '{one}' e '{other}': sceglierne uno, o sopprimere il calore dell'altro.</translation>
     </message>
     <message>
       <source>Up to date</source>
@@ -4449,6 +4497,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Verifica con CalculiX</translation>
     </message>
     <message>
+      <source>Conductivity</source>
+      <translation>Conducibilità</translation>
+    </message>
+    <message>
       <source>Displacement</source>
       <translation>Spostamento</translation>
     </message>
@@ -4457,8 +4509,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Trova i raggi</translation>
     </message>
     <message>
+      <source>Find temperatures</source>
+      <translation>Trova le temperature</translation>
+    </message>
+    <message>
       <source>Find the radii now and stay in this panel; Cancel in the status bar keeps the best design so far</source>
       <translation>Trova ora i raggi e resta in questo pannello; Annulla nella barra di stato tiene il progetto migliore finora</translation>
+    </message>
+    <message>
+      <source>Find the temperatures of the lattice as it is, and colour it</source>
+      <translation>Trova le temperature del reticolo com'è e lo colora</translation>
     </message>
     <message>
       <source>For printing</source>
@@ -4479,6 +4539,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Goal and limits</source>
       <translation>Obiettivo e limiti</translation>
+    </message>
+    <message>
+      <source>Heat enters and leaves through these faces alone: none is lost to air.</source>
+      <translation>Il calore entra ed esce solo da queste facce: nulla va perso nell'aria.</translation>
     </message>
     <message>
       <source>How many times the load may be before struts buckle, one alone or together; 0 for no limit</source>
@@ -4529,6 +4593,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Del guscio {solid:.4g} g sono pieni da un lato all'altro.</translation>
     </message>
     <message>
+      <source>Of the solid material, as its data sheet says</source>
+      <translation>Del materiale pieno, come dice la sua scheda tecnica</translation>
+    </message>
+    <message>
       <source>Plot</source>
       <translation>Grafico</translation>
     </message>
@@ -4547,6 +4615,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Standard deviations</source>
       <translation>Deviazioni standard</translation>
+    </message>
+    <message>
+      <source>Steady heat</source>
+      <translation>Calore stazionario</translation>
     </message>
     <message>
       <source>Step</source>
@@ -4589,6 +4661,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Toglie le aste che finiscono sottili come il raggio minimo e dimensiona di nuovo le altre; si tiene se è più leggero, o più rigido a parità di massa</translation>
     </message>
     <message>
+      <source>Temperatures are {low} to {high} °C, {flow} W flow through.</source>
+      <translation>Le temperature vanno da {low} a {high} °C, passano {flow} W.</translation>
+    </message>
+    <message>
       <source>The largest of any point under any case; 0 for no limit</source>
       <translation>Il massimo di ogni punto in ogni caso; 0 per nessun limite</translation>
     </message>
@@ -4603,6 +4679,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>The thinnest strut that the process prints</source>
       <translation>L'asta più sottile che il processo stampa</translation>
+    </message>
+    <message>
+      <source>Thermal resistance: {resistance} K/W.</source>
+      <translation>Resistenza termica: {resistance} K/W.</translation>
     </message>
     <message>
       <source>Thickest skin</source>

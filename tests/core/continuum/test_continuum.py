@@ -21,16 +21,20 @@ from volfrep.design.cells import LIBRARY, PAPERS
 from volfrep.design.grading import Orientation, RadiusGrading, SizeGrading
 from volfrep.design.parameters.spec_file import read_spec
 from volfrep.design.profile import Profile
+from volfrep.jobs.heat import solve_heat
 from volfrep.jobs.homogenised import homogenise_part
 from volfrep.jobs.part_bricks import cell_law
 from volfrep.jobs.pipeline import fill
+from volfrep.jobs.sized_field import FieldGoal, size_field
 from volfrep.jobs.sizing import solve_struts
 from volfrep.loads.load_cases import Heat, LoadCase, LoadCases, Support
+from volfrep.loads.load_file import load_cases_of
 from volfrep.loads.regions import InPlane, NearPoint
 from volfrep.mechanics.catalogue import catalogue
 from volfrep.mechanics.elements import solid_stiffness
 from volfrep.mechanics.materials import find_material
 from volfrep.mechanics.tensor import young
+from volfrep.util.cache import StageCache
 from volfrep.util.linalg import rotation
 
 PA12 = find_material("PA12")
@@ -233,6 +237,33 @@ def test_heat_that_flows_in_at_an_end_warms_lattice_and_skin():
     assert ("heat chip", f"{chip['temperature']:.5g} degrees, gives 1 W") in made.rows()
     with pytest.raises(VolfrepError, match="volfrep homogenise"):
         solve_struts(block(60, 30, 30), spec, loads)
+
+
+def test_heat_alone_needs_no_load_case_and_is_known_between_nodes():
+    """Closed form: linear along a bar; and as Fourier says through it."""
+    tables = [
+        {"plane": {"point": (x, 0, 0), "normal": (1, 0, 0)}, "temperature": warm}
+        for x, warm in ((0, 80), (60, 20))
+    ]
+    loads = load_cases_of({"material": "PA12", "conductivity": 7.0, "heat": tables})
+    spec = LatticeSpec("Octet", strut_radius=0.8, cell_size=10, shell=0)
+    solid, cache = block(60, 20, 20), StageCache()
+    found = solve_heat(solid, spec, loads, cache=cache)
+    share = cell_law(spec).conductivity[0]
+    assert found.faces[0]["power_w"] == pytest.approx(7e-3 * share * 400, rel=1e-4)
+    assert found.ends == (20.0, 80.0)
+    points = np.random.default_rng(0).uniform((0, 0, 0), (60, 20, 20), (50, 3))
+    assert found.at(points) == pytest.approx(80.0 - points[:, 0], abs=1e-3)
+    assert found.at(np.array([[-5.0, 10.0, 10.0]])) == pytest.approx([80.0])
+    assert solve_heat(solid, spec, loads, cache=cache) is found
+    made = homogenise_part(solid, spec, loads, element=5)
+    assert ("temperatures", "20 to 80 degrees") in made.rows()
+    with pytest.raises(VolfrepError, match="heat alone"):
+        homogenise_part(solid, spec, loads, element=5, frequencies=1)
+    with pytest.raises(VolfrepError, match="heat alone"):
+        size_field(solid, spec, loads, FieldGoal())
+    with pytest.raises(VolfrepError, match="no load case"):
+        load_cases_of({"material": "PA12"})
 
 
 def led_by_struts(cell, count, radius, length):

@@ -40,9 +40,12 @@ QUANTITIES = {
     "Governing limit": "Governing limit",
     "Governing limit of the skin": "Governing limit of the skin",
     "Field": "Field of the radius",
+    "Temperature": "Temperature, \u00b0C",
 }
 #: Those that need loads: names of the attributes of a `StrutState`.
 OF_LOADS = {"Stress": "stress", "Buckling": "buckling", "Displacement": "displacement"}
+#: What needs heat among the loads.
+OF_HEAT = "Temperature"
 #: Those that are known of a sized part only: rows of names, for struts and for the skin.
 GOVERNING = "Governing limit", "Governing limit of the skin"
 
@@ -86,7 +89,7 @@ def point_values(
         points: (n, 3) mm.
         normals: (n, 3) of the surface, of length 1, outwards; only overhangs need them.
         up: from the build plate, for overhangs.
-        loads: for those of `OF_LOADS`.
+        loads: for those of `OF_LOADS` and `OF_HEAT`.
         carried: in place of loads, what is known of struts: their ends, (m, 2, 3) mm, and the
             values there, (m, 2); for the skin points, (m, 3), and (m,).
         printing: how struts come out that carry loads; None as they are drawn.
@@ -105,6 +108,13 @@ def point_values(
         return PointValues(overhang(normals, up).astype(np.float32), 0.0, 90.0)
     if quantity == "Skin":
         return _in_range(_skin(solid, spec, points))
+    if quantity == OF_HEAT:
+        from ..heat import solve_heat
+
+        if loads is None:
+            raise VolfrepError(f"'{quantity}' needs heat: there is none.")
+        warm = solve_heat(solid, spec, loads, progress=progress, cache=cache)
+        return PointValues(warm.at(points).astype(np.float32), *warm.ends)
     if quantity in ("Cell size", "Field"):
         return _in_range(values_in_space(solid, spec, quantity, points))
     if quantity in GOVERNING and carried is None:

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.triangle_mesh import TriangleMesh
+from ..mesh.triangle_mesh import TriangleMesh, corners_at
 from ..spatial.rays import inside_grid, inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
@@ -140,7 +140,7 @@ def active_cells(
 def boundary_corners(mesh: TriangleMesh, mapping: CoordinateMap | None) -> Floats:
     """(m, 3, 3) corners of a mesh's triangles in lattice space."""
     if mapping is None:
-        return mesh.vertices[mesh.triangles]
+        return corners_at(mesh.vertices, mesh.triangles)
     return triangles_in_lattice(mesh, mapping)
 
 

@@ -19,7 +19,7 @@ from ..util.types import Bools, Ints
 from . import remesh
 from .precision import merging_vertices
 from .topology import edge_keys, numbered, open_vertices, touching, vertices_of
-from .triangle_mesh import TriangleMesh, compact, compacted
+from .triangle_mesh import TriangleMesh, compact, corners_at, rows_where
 
 #: By rounding a height may come out so many times as large, from whichever corner it is taken.
 NEARLY = 1.001
@@ -50,14 +50,15 @@ def remove_slivers(mesh: TriangleMesh, tolerance: float) -> TriangleMesh:
         mesh: closed.
         tolerance: mm.
     """
-    return without_slivers(mesh, tolerance).mesh
+    result = without_slivers(mesh, tolerance)
+    return mesh if result.number is None else compact(result.mesh, owned=True)
 
 
 class WithoutSlivers(NamedTuple):
     """A mesh after slivers went.
 
     Attributes:
-        mesh: without vertices out of use.
+        mesh: without the vertices that went.
         new: (m,) bool, which of its triangles were not there, or elsewhere.
         was: (m,) which one each was, -1 for these.
         number: (n,) of each vertex that there was, if it is in use; None: as it was.
@@ -77,11 +78,21 @@ def without_slivers(
         thin = slivers(mesh, tolerance)
     else:
         thin = among[_slivers(mesh.vertices, mesh.triangles[among], tolerance)]
-    result, new, was = _rebuilt(mesh, thin, tolerance)
-    if result is mesh:
-        return WithoutSlivers(mesh, new, was, None)
-    result, number = compacted(result, owned=True)
-    return WithoutSlivers(result, new, was, number)
+    if not len(thin):
+        return WithoutSlivers(mesh, *_nothing_new(mesh), None)
+    rest = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
+    stayed, new, was = rest.compared(mesh)
+    count = len(mesh.vertices)
+    # Vertices at the border of what was looked at are those of other triangles, too, and stay.
+    there = vertices_of(rest.piece, count)
+    in_use = there | ~vertices_of(mesh.triangles[rest.old], count)
+    number = np.cumsum(in_use, dtype=np.int32)
+    number -= 1
+    vertices, some = rows_where(in_use, mesh.vertices), there[rest.stay]
+    vertices[number[rest.stay[some]]] = rest.places[some]
+    triangles = rest.joined(mesh.triangles, stayed)
+    np.take(number, triangles, out=triangles, mode="clip")
+    return WithoutSlivers(TriangleMesh(vertices, triangles), new, was, number)
 
 
 def without_slivers_at(
@@ -121,22 +132,16 @@ def without_inner_slivers(
 def _rebuilt(mesh: TriangleMesh, thin: Ints, tolerance: float) -> tuple[TriangleMesh, Bools, Ints]:
     """As `without_inner_slivers`, of chosen triangles."""
     if not len(thin):
-        return mesh, np.zeros(len(mesh.triangles), bool), np.arange(len(mesh.triangles))
-    found = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
-    points, triangles, old = found.points, found.triangles, found.old
-    rebuilt, was = triangles[len(triangles) - len(found.origin) :], old[found.origin]
-    moved = _moved(points, mesh.vertices, np.flatnonzero(vertices_of(rebuilt, len(points))))
-    new = _differ(rebuilt, mesh.triangles[was]) | touching(moved, rebuilt)
-    stayed = np.delete(np.arange(len(mesh.triangles)), old)
-    was = np.concatenate([stayed, np.where(new, -1, was)])
-    return TriangleMesh(points, triangles), was < 0, was
+        return mesh, *_nothing_new(mesh)
+    rest = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
+    stayed, new, was = rest.compared(mesh)
+    points = mesh.vertices.copy()
+    points[rest.stay] = rest.places
+    return TriangleMesh(points, rest.joined(mesh.triangles, stayed)), new, was
 
 
-def _moved(points: NDArray[np.float64], before: NDArray[np.float64], rows: Ints) -> Bools:
-    """(n,) which of the points, among some of them, are elsewhere than before."""
-    moved = np.zeros(len(points), bool)
-    moved[rows] = _differ(points[rows], before[rows])
-    return moved
+def _nothing_new(mesh: TriangleMesh) -> tuple[Bools, Ints]:
+    return np.zeros(len(mesh.triangles), bool), np.arange(len(mesh.triangles))
 
 
 def _differ(rows: NDArray[Any], others: NDArray[Any]) -> Bools:
@@ -181,19 +186,40 @@ def _slivers_in(
 
 
 class _Rest(NamedTuple):
-    """A mesh in which some triangles were looked at.
+    """What is left of the triangles of a mesh that were looked at.
 
     Attributes:
-        points: (n, 3), some of them no longer in use.
-        triangles: those that were not looked at, and then those that are left of the others.
-        old: (p,) which those others were, ascending.
-        origin: (k,) which of the old ones each of the last triangles was.
+        stay: (k,) vertices of theirs that may still be in use.
+        places: (k, 3) where these are now.
+        piece: (p, 3) int32, the triangles that are left.
+        old: which triangles were looked at, ascending.
+        origin: (p,) which of the old ones each triangle was.
     """
 
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
+    stay: Ints
+    places: NDArray[np.float64]
+    piece: NDArray[np.int32]
     old: Ints
     origin: Ints
+
+    def joined(self, triangles: NDArray[np.int32], stayed: Ints) -> NDArray[np.int32]:
+        """The mesh's triangles that stayed, and then those that are left."""
+        result = np.empty((len(stayed) + len(self.piece), 3), np.int32)
+        np.take(triangles, stayed, axis=0, out=result[: len(stayed)], mode="clip")
+        result[len(stayed) :] = self.piece
+        return result
+
+    def compared(self, mesh: TriangleMesh) -> tuple[Ints, Bools, Ints]:
+        """The triangles of the mesh that stayed; of all `joined` ones, which are new and were."""
+        untouched = np.ones(len(mesh.triangles), bool)
+        untouched[self.old] = False
+        stayed = np.flatnonzero(untouched)
+        moved = np.zeros(len(mesh.vertices), bool)
+        moved[self.stay] = _differ(self.places, mesh.vertices[self.stay])
+        was = self.old[self.origin]
+        new = _differ(self.piece, mesh.triangles[was]) | touching(moved, self.piece)
+        was = np.concatenate([stayed, np.where(new, -1, was)])
+        return stayed, np.pad(new, (len(stayed), 0)), was
 
 
 def _without(
@@ -213,7 +239,8 @@ def _without(
     if changed is not None:
         thin = thin[touching(changed, triangles[thin])]
         if not len(thin):
-            return _Rest(points, triangles, thin, thin)
+            nothing = np.zeros(0, np.int64)
+            return _Rest(nothing, points[nothing], triangles[nothing], nothing, nothing)
     near = vertices_of(triangles[thin], len(points))
     near[triangles[touching(near, triangles)]] = True
     part = np.flatnonzero(touching(near, triangles))
@@ -232,18 +259,12 @@ def _without(
             near = vertices_of(piece[fresh], len(stay))
             for _ in range(2):  # rings within which it may have kept back something else
                 near[piece[touching(near, piece)]] = True
-            count = len(piece)
-            moved, piece, old, rest = _without(moved, piece, left, tolerance, passes - 1, near)
-            origin = origin[np.concatenate([np.delete(np.arange(count), old), old[rest]])]
-    points = points.copy()
-    points[stay] = moved
-    untouched = np.ones(len(triangles), bool)
-    untouched[part] = False
-    stayed = np.flatnonzero(untouched)
-    joined = np.empty((len(stayed) + len(piece), 3), np.int32)
-    np.take(triangles, stayed, axis=0, out=joined[: len(stayed)], mode="clip")
-    joined[len(stayed) :] = stay[piece]
-    return _Rest(points, joined, part, origin)
+            rest = _without(moved, piece, left, tolerance, passes - 1, near)
+            moved[rest.stay] = rest.places
+            stayed = np.delete(np.arange(len(piece)), rest.old)
+            origin = origin[np.concatenate([stayed, rest.old[rest.origin]])]
+            piece = rest.joined(piece, stayed)
+    return _Rest(stay, moved, stay[piece].astype(np.int32), part, origin)
 
 
 class _Collapsed(NamedTuple):
@@ -353,7 +374,7 @@ def _flip_slivers(
         wanted: NDArray[np.float64] = np.where(old < tolerance, new - 1.5 * old, -1.0)
         return wanted
 
-    thin = remesh.heights(points[triangles]) < NEARLY * tolerance
+    thin = remesh.heights(corners_at(points, triangles)) < NEARLY * tolerance
     return remesh.flip(points, triangles, gain, _none, thin)
 
 
@@ -377,7 +398,7 @@ def _close_slivers(points: NDArray[np.float64], triangles: Ints, tolerance: floa
         triangles.ravel(), np.repeat(np.arange(len(triangles)), 3), count
     )
     rows, owner = rows_of(start, gone)
-    facets = points[triangles[around[rows]]]
+    facets = corners_at(points, triangles[around[rows]])
     way = points[kept[owner]] - points[gone[owner]]
     off = np.abs((remesh.unit_normals(facets) * way).sum(axis=1))
     off[_is_thin(facets, tolerance)] = 0.0  # it has no plane

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..util.errors import VolfrepError
 from ..util.parallel import ParallelBackend, SharedArray
 from ..util.types import Ints
-from .triangle_mesh import TriangleMesh
+from .triangle_mesh import TriangleMesh, corners_at
 
 #: Triangles or points looked at, or lines of text made, in one step (bounds the memory).
 BLOCK_ROWS = 1 << 16
@@ -46,7 +46,7 @@ def refuse_lost_corners(
         VolfrepError: saying where the first of them is.
     """
     for start in range(0, len(triangles), BLOCK_ROWS):
-        corners = vertices[triangles[start : start + BLOCK_ROWS]]
+        corners = corners_at(vertices, triangles[start : start + BLOCK_ROWS])
         lost = np.zeros(len(corners), bool)
         for a, b in ((0, 1), (1, 2), (2, 0)):
             lost |= (corners[:, a] == corners[:, b]).all(axis=1)

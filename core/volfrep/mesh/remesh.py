@@ -19,7 +19,7 @@ from ..util.linalg import cross_columns, lengths, normalize
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
 from .topology import among_edges, edge_keys
-from .triangle_mesh import TriangleMesh
+from .triangle_mesh import TriangleMesh, corners_at
 
 #: A triangle may not turn by more than this (cosine) when a neighbour is collapsed or flipped.
 MIN_TURN_COSINE = 0.35
@@ -106,7 +106,7 @@ def unit_normals(points: Floats) -> Floats:
 
 def facet_normals(mesh: TriangleMesh) -> Floats:
     """(m, 3) unit normals of a mesh, outwards; zero where a triangle has no area."""
-    return unit_normals(mesh.vertices[mesh.triangles])
+    return unit_normals(corners_at(mesh.vertices, mesh.triangles))
 
 
 def heights(points: Floats) -> Floats:
@@ -208,7 +208,7 @@ def collapse(
         across = other[owner]
         affected = (one != across) & (two != across) & (three != across) & (moves & good)[owner]
         corners, owner = corners[affected], owner[affected]
-        before = vertices[corners]
+        before = corners_at(vertices, corners)
         after = np.where(
             (corners == side[owner][:, None])[:, :, None], target[owner][:, None, :], before
         )
@@ -303,7 +303,7 @@ def flip(
     # flipped pair is (a, b, v) and (b, a, u).
     first = np.stack([corners[:, 0], corners[:, 1], ends[:, 1]], axis=1)
     second = np.stack([corners[:, 1], corners[:, 0], ends[:, 0]], axis=1)
-    each = normals(vertices[triangles])
+    each = normals(corners_at(vertices, triangles))
     old_normal = each[pair[:, 0]] + each[pair[:, 1]]
     size = lengths(old_normal)
     select = np.flatnonzero(~exists & ~forbidden(corners[:, 0], corners[:, 1]))

@@ -45,8 +45,8 @@ def among_edges(one: NDArray[Any], two: NDArray[Any], keys: Ints, count: int | n
 
 def corners_among(chosen: Bools, triangles: NDArray[Any]) -> NDArray[np.int8]:
     """(m,) how many corners of each triangle are among the chosen vertices, (n,) bool."""
-    # A column at a time: numpy is slow at reducing many short rows.
-    a, b, c = (chosen[triangles[:, k]].view(np.int8) for k in range(3))
+    # A column at a time: numpy is slow at reducing many short rows. An index takes twice as long.
+    a, b, c = (chosen.take(triangles[:, k], mode="clip").view(np.int8) for k in range(3))
     result: NDArray[np.int8] = a + b + c
     return result
 
@@ -55,7 +55,8 @@ def touching(chosen: Bools, triangles: NDArray[Any]) -> Bools:
     """(m,) which triangles have a corner among the chosen vertices, (n,) bool."""
 
     def block(start: int) -> Bools:
-        a, b, c = (chosen[triangles[start : start + BLOCK_TRIANGLES, k]] for k in range(3))
+        part = triangles[start : start + BLOCK_TRIANGLES]
+        a, b, c = (chosen.take(part[:, k], mode="clip") for k in range(3))
         return np.asarray(a | b | c, np.bool_)
 
     if len(triangles) <= BLOCK_TRIANGLES:

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-Number = TypeVar("Number", np.float64, np.int32)
+Number = TypeVar("Number", np.float64, np.float32, np.int32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,6 +143,15 @@ def compacted(mesh: TriangleMesh, *, owned: bool = False) -> tuple[TriangleMesh,
     triangles = mesh.triangles if owned else np.empty(mesh.triangles.shape, np.int32)
     np.take(index, mesh.triangles, out=triangles, mode="clip")
     return TriangleMesh(rows_where(used, mesh.vertices), triangles), index
+
+
+def corners_at(vertices: NDArray[Number], triangles: NDArray[Any]) -> NDArray[Number]:
+    """(..., 3) where the vertices are that some triangles name.
+
+    As by an index, by which numpy takes rows in twice the time and more.
+    """
+    result: NDArray[Number] = np.take(vertices, triangles, axis=0, mode="clip")
+    return result
 
 
 def rows_where(kept: NDArray[np.bool_], rows: NDArray[Number]) -> NDArray[Number]:

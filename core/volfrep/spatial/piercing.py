@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.triangle_mesh import TriangleMesh, triangle_boxes
+from ..mesh.triangle_mesh import TriangleMesh, corners_at, triangle_boxes
 from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import in_threads
@@ -74,7 +74,7 @@ def pairs_at_planes(
         among: (m,) bool, triangles of which each pair has at least one; None: all.
     """
     monitor = monitor or Monitor()
-    corners = mesh.vertices[mesh.triangles]
+    corners = corners_at(mesh.vertices, mesh.triangles)
     planes = _Planes(mesh, moves)
     found = [np.empty((0, 2), np.int64)]
     among = np.ones(len(corners), bool) if among is None else among

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.triangle_mesh import TriangleMesh
+from ..mesh.triangle_mesh import TriangleMesh, corners_at
 from ..util.progress import Monitor
 from ..util.ragged import PAIRS_PER_STEP, pairs_in_steps, spread
 from ..util.types import Floats, Ints
@@ -37,7 +37,7 @@ def inside_points(mesh: TriangleMesh, points: Floats, monitor: Monitor) -> NDArr
     winding = np.zeros(len(points), np.int64)
     low, high = mesh.bounds
     within = np.flatnonzero(((points >= low) & (points < high)).all(axis=1))
-    corners, seen = mesh.vertices[mesh.triangles], points[within, :2]
+    corners, seen = corners_at(mesh.vertices, mesh.triangles), points[within, :2]
     for triangle, line in lines_over(corners, seen):
         monitor.tick()
         hit, z, step = _crossings(corners[triangle], *seen[line].T)
@@ -137,7 +137,7 @@ def column_crossings(
         i, j: indices of the column; z: height of the crossing, mm; step: +1 where a line going
         up enters, -1 where it leaves.
     """
-    corners = mesh.vertices[mesh.triangles]
+    corners = corners_at(mesh.vertices, mesh.triangles)
     low, high = corners.min(axis=1), corners.max(axis=1)
     first = np.stack([np.searchsorted(xs, low[:, 0]), np.searchsorted(ys, low[:, 1])], axis=1)
     last = np.stack(
@@ -196,7 +196,7 @@ def segment_crossings(mesh: TriangleMesh, start: Floats, end: Floats) -> tuple[I
         (k,) the segment; (k,) the place on it, above 0 and below 1; (k,) +1 where it leaves the
         mesh, -1 where it enters. A line through an edge crosses one of its two triangles.
     """
-    corners = mesh.vertices[mesh.triangles]
+    corners = corners_at(mesh.vertices, mesh.triangles)
     boxes = corners.min(axis=1), corners.max(axis=1)
     low, high = np.minimum(start, end), np.maximum(start, end)
     origin = np.minimum(boxes[0].min(axis=0), low.min(axis=0))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.remesh import unit_normals
-from ..mesh.triangle_mesh import TriangleMesh, box_of, triangle_boxes
+from ..mesh.triangle_mesh import TriangleMesh, box_of, corners_at, triangle_boxes
 from ..util.ragged import pairs_in_steps, spread
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
@@ -78,7 +78,7 @@ def crossing_edges(mesh: TriangleMesh, among: Bools, depth: float) -> tuple[Ints
 def _crossing_edges(
     mesh: TriangleMesh, among: Bools, depth: float
 ) -> Iterator[tuple[Ints, Ints, Floats]]:
-    corners = mesh.vertices[mesh.triangles]
+    corners = corners_at(mesh.vertices, mesh.triangles)
     normal = unit_normals(corners)
     for a, b in _together(close_pairs(corners, among)):
         # Neighbours over an edge have no edge that could run through the other.

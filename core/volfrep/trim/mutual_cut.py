@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..mesh.topology import edge_keys, pieces_of
-from ..mesh.triangle_mesh import TriangleMesh
+from ..mesh.triangle_mesh import TriangleMesh, corners_at
 from ..mesh.triangulation import triangulate
 from ..spatial.rays import inside_points
 from ..util.progress import Monitor
@@ -316,7 +316,7 @@ def _triangulate(
     if not len(owner):
         return np.zeros((0, 3), np.int64), np.zeros(0, np.int64)
     of = np.repeat(owner, length)
-    frame = vertices[triangles[of]]
+    frame = corners_at(vertices, triangles[of])
     along = frame[:, 1] - frame[:, 0]
     along /= np.linalg.norm(along, axis=1)[:, None]
     up = np.cross(along, frame[:, 2] - frame[:, 0])

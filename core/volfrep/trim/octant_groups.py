@@ -22,7 +22,7 @@ from ..lattice.assembly import Layout
 from ..mesh import remesh
 from ..mesh.booleans import from_library, to_library
 from ..mesh.topology import among_edges, edge_keys
-from ..mesh.triangle_mesh import TriangleMesh, compact, triangle_boxes
+from ..mesh.triangle_mesh import TriangleMesh, compact, corners_at, triangle_boxes
 from ..spatial.self_intersection import meeting_boxes
 from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
@@ -331,7 +331,7 @@ def _split(mesh: TriangleMesh, longest: float, low: Floats, high: Floats) -> Tri
 
 def _touching(low: Floats, high: Floats, boundary: TriangleMesh, near: float) -> Ints:
     """(t, 2) boxes and triangles that touch, by their boxes and by the triangles' planes."""
-    corners = boundary.vertices[boundary.triangles]
+    corners = corners_at(boundary.vertices, boundary.triangles)
     first, last = corners.min(axis=1) - near, corners.max(axis=1) + near
     a, b = meeting_boxes(low, high, first, last, float((high - low).max()))
     normal = remesh.normals(corners)

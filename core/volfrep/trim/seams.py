@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..mesh.remesh import unit_normals
-from ..mesh.triangle_mesh import TriangleMesh, triangle_boxes
+from ..mesh.triangle_mesh import TriangleMesh, corners_at, triangle_boxes
 from ..spatial.self_intersection import meeting_boxes
 from ..util.linalg import cross_columns, dot_columns
 from ..util.types import Bools, Floats, Ints
@@ -118,7 +118,7 @@ def _near_pairs(first: TriangleMesh, second: TriangleMesh) -> tuple[Ints, Ints]:
     if len(first.triangles) and len(second.triangles):
         low, high = triangle_boxes(first.vertices.T, first.triangles.T)
         least, most = triangle_boxes(second.vertices.T, second.triangles.T)
-        others = second.vertices[second.triangles]
+        others = corners_at(second.vertices, second.triangles)
         normal = unit_normals(others)
         offset = np.einsum("ij,ij->i", others[:, 0], normal)
         # The last run is filled up with its last facet.
@@ -239,7 +239,7 @@ def _crossings(
     )
     facet = two[pair[first]]
     u, v = mesh.vertices[start[first]], mesh.vertices[end[first]]
-    through = _through(u, v, other.vertices[other.triangles[facet]])
+    through = _through(u, v, corners_at(other.vertices, other.triangles[facet]))
     row = np.cumsum(through) - 1
     first, facet, u, v = first[through], facet[through], u[through], v[through]
     low, high = low[first], high[first]

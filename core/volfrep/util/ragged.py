@@ -45,8 +45,9 @@ def rows_of(start: Ints, index: Ints) -> tuple[Ints, Ints]:
     return first[owner] + place, owner
 
 
-#: Pairs of a triangle and a cell (or a column) that one vectorised step takes at a time.
-PAIRS_PER_STEP = 1_000_000
+#: Pairs of a triangle and a cell (or a column) that one vectorised step takes at a time: few enough
+#: that what it computes of them stays in the cache of a processor.
+PAIRS_PER_STEP = 1 << 15
 
 
 def pairs_in_steps(counts: Ints) -> Iterator[tuple[Ints, Ints]]:

@@ -18,7 +18,7 @@ import numpy as np
 from ..util.linalg import cross_columns, lengths, normalize
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
-from .topology import among_edges, edge_keys
+from .topology import among_edges, corners_among, edge_keys, vertices_of
 from .triangle_mesh import TriangleMesh, corners_at
 
 #: A triangle may not turn by more than this (cosine) when a neighbour is collapsed or flipped.
@@ -423,4 +423,6 @@ def split(
         )
         rows = np.concatenate([rows, np.arange(len(triangles) - 2 * len(new), len(triangles))])
         todo, fresh = todo[~now], fresh[~now]
+        left = vertices_of(todo, len(vertices))
+        rows = rows[corners_among(left, triangles[rows]) > 1]
     return vertices, triangles

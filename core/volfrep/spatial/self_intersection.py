@@ -322,7 +322,7 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
         corners = np.ascontiguousarray(mesh.triangles[begin : begin + BLOCK_TRIANGLES].T)
         # A triangle with a corner in a covered cell reaches into one; with all of them in one
         # cell that tells all.
-        a, b, c = (is_covered[row] for row in corners)
+        a, b, c = (is_covered.take(row, mode="clip") for row in corners)
         result: Bools = a | b | c
         a, b, c = (where[row] for row in corners)
         rows = np.flatnonzero(~result & ((a != b) | (a != c)))

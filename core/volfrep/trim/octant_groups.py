@@ -21,7 +21,7 @@ import numpy as np
 from ..lattice.assembly import Layout
 from ..mesh import remesh
 from ..mesh.booleans import from_library, to_library
-from ..mesh.topology import among_edges, edge_keys
+from ..mesh.topology import among_edges, corners_among, edge_keys, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, corners_at, triangle_boxes
 from ..spatial.self_intersection import meeting_boxes
 from ..util.errors import VolfrepError
@@ -326,7 +326,9 @@ def _split(mesh: TriangleMesh, longest: float, low: Floats, high: Floats) -> Tri
         wanted = partial(
             among_edges, keys=np.unique(edge_keys(ends[:, 0], ends[:, 1], count)), count=count
         )
-        points, triangles = remesh.split(points, triangles, wanted, long)
+        # Those beyond these sides have a long one, too.
+        beside = long[corners_among(vertices_of(ends, count), triangles[long]) > 1]
+        points, triangles = remesh.split(points, triangles, wanted, beside)
 
 
 def _touching(low: Floats, high: Floats, boundary: TriangleMesh, near: float) -> Ints:

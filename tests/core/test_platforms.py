@@ -31,6 +31,11 @@ WINE = sys.platform == "win32" and hasattr(ctypes.windll.ntdll, "wine_get_versio
 FOLDER = Path("My Parts", "Größe 10 µm, 試作", *["a folder of a long name"] * (0 if WINE else 9))
 
 
+def test_no_file_is_taken_for_a_macro_of_the_user():
+    """FreeCAD's Addon Manager copies all .FCMacro files of an add-on among the user's macros."""
+    assert [name for name in known_files() if name.lower().endswith(".fcmacro")] == []
+
+
 def known_files():
     """Files that git knows; in a copy without git, all but what is hidden or made."""
     if shutil.which("git"):

@@ -23,7 +23,8 @@ from .ply import read_ply
 from .step_text import refuse_damaged_step
 
 STEP_SUFFIXES = (".step", ".stp")
-MACRO = Path(__file__).with_name("tessellate.FCMacro")
+#: FreeCAD runs it. As an .FCMacro the Addon Manager would copy it among the user's macros.
+SCRIPT = Path(__file__).with_name("tessellate.FCScript")
 MAX_SECONDS = 1800
 
 
@@ -61,7 +62,7 @@ def read_cad(data: bytes, file: Path, monitor: Monitor | None = None) -> Content
         try:
             with (monitor or Monitor()).stage("reading", 0.0, 0.0) as watched:
                 run_program(
-                    [program, str(MACRO)],
+                    [program, str(SCRIPT)],
                     Path(folder),
                     watched,
                     {**os.environ, **given},

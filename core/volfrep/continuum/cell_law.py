@@ -32,6 +32,8 @@ class CellLaw:
         conductivity: (n,) the mean over the axes.
         pressed: (n, m, 6) of each strut what presses it under a unit strain, Voigt in the cell's
             axes, over what buckles it between pinned ends; None of walls.
+        free_layer: stiffness of a TPMS within half a cell of a free face, over that elsewhere; None
+            of struts.
     """
 
     thickness: Floats
@@ -40,6 +42,7 @@ class CellLaw:
     strength: Floats
     conductivity: Floats
     pressed: Floats | None = None
+    free_layer: float | None = None
 
     def tensors_at(self, thickness: Floats) -> Floats:
         """(k, 6, 6), between samples by logarithms of both; (1, 6, 6) of one sample."""

@@ -5,7 +5,8 @@ As a homogenised solid a cell has its stiffness and mass all over. Struts lie in
 skin takes the layer that holds a cell's face, the struts in that face are gone, whatever the
 layer's share of the cell is. So the stiffness of a cut cell follows what its struts, moved as the
 solid is, would have in what is left of them, over what they would have by the cell's share; and its
-mass, and how it leads heat, the length of struts that is left.
+mass, and how it leads heat, the length of struts that is left. A TPMS that a free face cuts has all
+of its mass, and less of its stiffness within half a cell, as nothing holds the edges of its sheets.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import ndimage
 
 from ..design.cells import UnitCell
 from ..util.types import Floats, Ints
@@ -43,6 +45,11 @@ class CutCells:
 
     stiffness: Floats
     mass: Floats
+
+    @staticmethod
+    def softened(factors: Floats) -> CutCells:
+        """Of (e,) factors of all of their stiffness, at their mass."""
+        return CutCells(factors[:, None, None] * np.eye(6), np.ones(len(factors)))
 
     def means(self, rows: Ints, weights: Floats) -> CutCells:
         """(e,) means of the cells in (e, n) rows, by (e, n) weights."""
@@ -99,6 +106,25 @@ def _filled_at(places: Ints, points: Floats, filled: Filled) -> Floats:
     """(k, n) of (n, 3) points in each of (k, 3) cells."""
     every = (places[:, None] + points).reshape(-1, 3)
     return filled(every).reshape(len(places), len(points))
+
+
+def near_free_faces(lattice: Floats, solid: Floats, step: Floats, depth: float) -> Floats:
+    """(nx, ny, nz) 1 where lattice lies within a depth of a free face that it ends in, else 0.
+
+    Args:
+        lattice: (nx, ny, nz) in [0, 1] of the parts of a grid, as of `Shares`.
+        solid: the same, of the skin.
+        step: (3,) edges of a part, mm.
+        depth: mm.
+    """
+    own = np.pad((lattice > 0.5) & (solid == 0.0), 1)
+    there = np.pad((lattice + solid > 0.5) | (solid > 0.0), 1)
+    free = ~there & ndimage.binary_dilation(own)
+    if not free.any():
+        return np.zeros(lattice.shape)
+    away = ndimage.distance_transform_edt(~free, sampling=step) - 0.5 * float(step.mean())
+    result: Floats = (own & (away < depth))[1:-1, 1:-1, 1:-1].astype(float)
+    return result
 
 
 def cut_tensors(tensors: Floats, factors: Floats) -> Floats:

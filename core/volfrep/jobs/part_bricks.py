@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from scipy.ndimage import map_coordinates
 from ..continuum.border import border_bars
 from ..continuum.bricks import Bricks, Shares, add_bars, bar_conductances, constants
 from ..continuum.cell_law import CellLaw, pressed_struts, split, stretched_tensors, turned
-from ..continuum.cut_cells import CutCells, cut_cells, cut_tensors
+from ..continuum.cut_cells import CutCells, cut_cells, cut_tensors, near_free_faces
 from ..continuum.model import (
     ContinuumModel,
     cells_across,
@@ -24,7 +25,10 @@ from ..mechanics.catalogue import joint_law
 from ..mechanics.elements import CORNERS, PARTS, solid_stiffness
 from ..mechanics.endless import stretched_strains
 from ..mechanics.frame import stiffened
+from ..mechanics.free_layer import ALONG as ALONG_LAYER
+from ..mechanics.free_layer import free_layer
 from ..mechanics.joint_fit import periodic_frame
+from ..tpms.solid import TpmsSolid
 from ..util.errors import VolfrepError
 from ..util.numbers import number
 from ..util.types import Floats, Ints
@@ -33,6 +37,9 @@ from ..voxels.multigrid import elements_at
 from ..voxels.shares import VoxelGrid, fill_grid, grid_of
 from .figures.properties import lattice_properties
 from .infill import Infill
+from .tpms.octants import surface_of
+from .tpms.symmetry import is_cubic
+from .tpms.voxels import cut_into_voxels
 
 #: So many elements, if the user does not say how large they are; where cells are more, one a cell
 #: up to the most.
@@ -77,14 +84,14 @@ class PartBricks:
     ) -> None:
         self.infill, self.law, self.material = infill, law, loads.material
         self.low, self.count, edge = _grid(infill, element)
-        self.shares, self.place, filled = _shares(infill, self.low, self.count, edge)
+        self.shares, self.place, filled, hard = _shares(infill, self.low, self.count, edge)
         self.size = (int(self.count[0]), int(self.count[1]), int(self.count[2]))
         self.elements = elements_at(self.place, self.size)
         # Blocks of whole cells bend no more than their joints move (docs/method.md).
         self.bricks = Bricks(edge, bending=not _is_whole(infill))
         self.middles = (self.place + 0.5) * edge + self.low
         self._body = surface_body(infill.solid, float(edge.max()))
-        self.cut = self._cut_cells(filled)
+        self.cut = self._cut_cells(filled) if law.free_layer is None else self._opened(filled, hard)
 
     def model(
         self, thickness_at: Callable[[Floats], Floats], *, graded: bool = True
@@ -133,6 +140,21 @@ class PartBricks:
     def _left(self, column: Floats) -> Floats:
         """What is as much as there is of struts, of whole cells and then of cut ones."""
         return column if self.cut is None else column * self.cut.mass
+
+    def _opened(self, filled: Floats, hard: Floats) -> CutCells:
+        """Of a TPMS, as soft as free faces make it.
+
+        Args:
+            filled: shares of lattice of all parts of all bricks.
+            hard: of skin.
+        """
+        assert self.law.free_layer is not None
+        step, depth = self.bricks.edge / PARTS, 0.5 * self.infill.spec.cell_size
+        near = _by_brick(near_free_faces(filled, hard, step, depth), self.count)
+        near = near[tuple(self.place.T)]
+        own = self.shares.lattice
+        share = (near * own).sum(axis=1) / np.maximum(own.sum(axis=1), 1e-9)
+        return CutCells.softened(1.0 - (1.0 - self.law.free_layer) * share)
 
     def _cut_cells(self, filled: Floats) -> CutCells | None:
         """Of each brick, means of its cells; None without struts.
@@ -218,8 +240,10 @@ def _grid(infill: Infill, element: float | None) -> tuple[Floats, Ints, Floats]:
     return bounds[0], count, edges
 
 
-def _shares(infill: Infill, low: Floats, count: Ints, edge: Floats) -> tuple[Shares, Ints, Floats]:
-    """What fills the bricks' parts, the places of those that are not empty, all of lattice."""
+def _shares(
+    infill: Infill, low: Floats, count: Ints, edge: Floats
+) -> tuple[Shares, Ints, Floats, Floats]:
+    """What fills the bricks' parts, the places of those that are not empty, all shares of both."""
     spec, fine, step = infill.spec, count * PARTS, edge / PARTS
     solid: Any = np.zeros(fine)
     lattice: Any
@@ -235,7 +259,7 @@ def _shares(infill: Infill, low: Floats, count: Ints, edge: Floats) -> tuple[Sha
     there = (own + hard).mean(axis=3) > EMPTY
     if not (own[there] > 0.0).any():
         raise VolfrepError("No lattice lies in the part: choose smaller cells or a thinner skin.")
-    return Shares(own[there], hard[there]), np.argwhere(there), lattice
+    return Shares(own[there], hard[there]), np.argwhere(there), lattice, solid
 
 
 def _by_brick(shares: Floats, count: Ints) -> Floats:
@@ -289,7 +313,15 @@ def cell_law(spec: LatticeSpec) -> CellLaw:
         None
         if kind.cube is None
         else np.stack([pressed_struts(kind.cube, spec.cell_size, value) for value in values]),
+        None if kind.has_struts else _free_layer(spec, float(np.mean(values))),
     )
+
+
+def _free_layer(spec: LatticeSpec, thickness: float) -> float:
+    """Of `CellLaw`, of a TPMS; of its mean thickness, if that varies."""
+    wall = replace(spec.wall, thickness=thickness) if spec.wall.is_sheet else spec.wall
+    solid = TpmsSolid.of(surface_of(spec), wall, spec.cell_size)
+    return free_layer(cut_into_voxels(solid, ALONG_LAYER, octant=False), cubic=is_cubic(solid))
 
 
 def _lattice(

@@ -189,7 +189,7 @@ class StudyPanel:
         name.setObjectName(f"Property{number + 1}")
         values.setObjectName(f"Values{number + 1}")
         name.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
-        name.setMinimumContentsLength(9)  # the values are what is typed
+        name.setMinimumContentsLength(13)  # the longest name in Italian; values take the rest
         values.setToolTip(translate("VolfrepStudy", "Values: 6, 8, 10, or 6 to 10 in 5"))
         name.addItem("", "")
         for known in self._known:

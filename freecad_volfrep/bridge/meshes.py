@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import struct
 import tempfile
+from collections.abc import Generator
+from concurrent.futures import ThreadPoolExecutor, wait
 from pathlib import Path
 
 import Mesh
@@ -21,6 +23,9 @@ from volfrep.util.errors import VolfrepError
 
 #: How FreeCAD's binary meshes begin: a number by which they are known, a version, room for a text.
 _BMS_HEAD = struct.pack("<II", 0xA0B0C0D0, 0x010000) + bytes(256)
+
+#: A file that is being written is looked for so long at a time, s.
+_LOOKS = 0.005
 
 
 def to_freecad(mesh: TriangleMesh) -> Mesh.Mesh:
@@ -56,16 +61,26 @@ def with_neighbours(vertices: NDArray[np.float64], facets: NDArray[np.uint32]) -
     Raises:
         VolfrepError: FreeCAD did not take every triangle.
     """
+    steps = neighbours_in_steps(vertices, facets)
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
+
+
+def neighbours_in_steps(
+    vertices: NDArray[np.float64], facets: NDArray[np.uint32]
+) -> Generator[None, None, Mesh.Mesh]:
+    """As `with_neighbours`: the file is written on a thread, until which there are steps."""
     if not len(facets):
         return Mesh.Mesh()
-    points = np.ascontiguousarray(vertices, "<f4")
-    box = np.stack([points.min(axis=0), points.max(axis=0)], axis=1)
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(1) as beside:
         path = Path(folder) / "mesh.bms"
-        with path.open("wb") as file:
-            file.write(_BMS_HEAD + struct.pack("<II", len(points), len(facets)))
-            for array in (points, np.ascontiguousarray(facets, "<u4"), box):
-                file.write(array.data)
+        writing = beside.submit(_write_bms, path, vertices, facets)
+        while not wait([writing], _LOOKS).done:
+            yield
+        writing.result()
         result = Mesh.Mesh(str(path))
     if result.CountFacets != len(facets):
         raise VolfrepError(
@@ -73,6 +88,16 @@ def with_neighbours(vertices: NDArray[np.float64], facets: NDArray[np.uint32]) -
             "use a coarser deviation."
         )
     return result
+
+
+def _write_bms(path: Path, vertices: NDArray[np.float64], facets: NDArray[np.uint32]) -> None:
+    """Write FreeCAD's own binary format."""
+    points = np.ascontiguousarray(vertices, "<f4")
+    box = np.stack([points.min(axis=0), points.max(axis=0)], axis=1)
+    with path.open("wb") as file:
+        file.write(_BMS_HEAD + struct.pack("<II", len(points), len(facets)))
+        for array in (points, np.ascontiguousarray(facets, "<u4"), box):
+            file.write(array.data)
 
 
 def from_freecad(mesh: Mesh.Mesh) -> TriangleMesh:

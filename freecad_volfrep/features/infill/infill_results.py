@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -56,6 +57,15 @@ def loaded(filled: FilledMesh) -> Mesh.Mesh:
     if filled.shown is None:
         return to_freecad(filled.mesh)
     return with_neighbours(filled.mesh.vertices, filled.shown.facets)
+
+
+def loaded_in_steps(filled: FilledMesh) -> Generator[None, None, Mesh.Mesh]:
+    """As `loaded`, between whose steps the window answers."""
+    from freecad_volfrep.bridge.meshes import neighbours_in_steps, to_freecad
+
+    if filled.shown is None:
+        return to_freecad(filled.mesh)
+    return (yield from neighbours_in_steps(filled.mesh.vertices, filled.shown.facets))
 
 
 def install(obj: App.DocumentObject, job: MeshJob, filled: FilledMesh, mesh: Mesh.Mesh) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.features.infill.infill_results import loaded
+from freecad_volfrep.features.infill.infill_results import loaded_in_steps
 from freecad_volfrep.features.jobs.job import State
 from freecad_volfrep.gui.in_steps import Stillness
 from freecad_volfrep.gui.qt import QtWidgets
@@ -112,7 +112,7 @@ class Update:
                     yield
             finally:
                 stillness.end()
-        self._mesh = loaded(filled)
+        self._mesh = yield from loaded_in_steps(filled)
         yield
 
     def _arrive(

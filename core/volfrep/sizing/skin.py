@@ -257,6 +257,7 @@ def skin_model(
     *,
     fixed: Bools | None = None,
     thickest: float | None = None,
+    begun: TriangleMesh | None = None,
 ) -> SkinModel:
     """The skin of a part as shells.
 
@@ -270,8 +271,9 @@ def skin_model(
         monitor: asked for a cancel.
         fixed: (m,) which of the part's triangles no load case moves; None for none.
         thickest: mm, up to which the skin may become thicker; None where it does not.
+        begun: of `skin_mesh.begun_surface` for the same part and edge; None to begin anew.
     """
-    outside = even_surface(solid, edge, monitor, feet.places)
+    outside = even_surface(solid, edge, monitor, feet.places, begun)
     triangles = outside.triangles.astype(np.int64)
     corners = outside.vertices[triangles]
     normal = remesh.normals(corners)

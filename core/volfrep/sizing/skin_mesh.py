@@ -93,11 +93,17 @@ class _Creases:
         return np.asarray(free | ((self.rank[gone] == 1) & self.are_sharp(gone, kept)))
 
 
+def begun_surface(mesh: TriangleMesh, edge: float, monitor: Monitor) -> TriangleMesh:
+    """What `even_surface` begins with, whatever places are given to it."""
+    return _evened(mesh, mesh, edge, monitor, None, range(_PINNED_AT))
+
+
 def even_surface(
     mesh: TriangleMesh,
     edge: float,
     monitor: Monitor | None = None,
     places: Floats | None = None,
+    begun: TriangleMesh | None = None,
 ) -> TriangleMesh:
     """The surface in triangles whose edges are about so long, where its details allow it.
 
@@ -107,9 +113,23 @@ def even_surface(
         monitor: asked for a cancel.
         places: (k, 3) near which there are to be vertices, mm; those at sharp edges are moved
             there.
+        begun: of `begun_surface` for the same mesh and edge; None to begin anew.
     """
     monitor = monitor or Monitor()
-    vertices, triangles = mesh.vertices.copy(), mesh.triangles.astype(np.int64)
+    begun = begun_surface(mesh, edge, monitor) if begun is None else begun
+    return _evened(mesh, begun, edge, monitor, places, range(_PINNED_AT, _PASSES))
+
+
+def _evened(
+    mesh: TriangleMesh,
+    begun: TriangleMesh,
+    edge: float,
+    monitor: Monitor,
+    places: Floats | None,
+    passes: range,
+) -> TriangleMesh:
+    """Some of the passes of `even_surface`, from a surface that earlier ones have made."""
+    vertices, triangles = begun.vertices.copy(), begun.triangles.astype(np.int64)
     surface = NearestTriangles(mesh, _SAMPLED * edge)
     pinned = wanted = np.empty((0, 3))
     if places is not None and len(places):
@@ -122,7 +142,7 @@ def even_surface(
         return np.asarray(outwards[surface.closest(points)[2]])
 
     may, allowed = _keeps_shape(below, _TINY * edge)
-    for number in range(_PASSES):
+    for number in passes:
         monitor.tick()
 
         def is_long(one: Ints, two: Ints, points: Floats = vertices) -> Bools:

@@ -12,13 +12,14 @@ from volfrep.design.grading import RadiusGrading
 from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
 from volfrep.jobs.infill import Infill
-from volfrep.jobs.sizing import Goal, size, solve_struts
+from volfrep.jobs.sizing import Goal, part_model, size, solve_struts
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.sizing.analysis import Limits
 from volfrep.sizing.strut_state import strut_states
+from volfrep.util.cache import StageCache
 from volfrep.util.errors import Cancelled
 
 SPEC = LatticeSpec("BCC", cell_size=10, strut_radius=0.8, shell=0)
@@ -47,6 +48,21 @@ def test_what_is_solved_is_what_was_designed():
     # Twice the force, twice the displacement.
     _, doubled = solve_struts(beam(), part.spec, bent(-400.0))
     assert doubled.largest == pytest.approx(2.0 * analysis.largest)
+
+
+def test_a_skin_begins_with_what_was_made_of_the_same_part(monkeypatch):
+    spec, cache = replace(SPEC, shell=1.0, cell_size=20), StageCache()
+    infill = Infill(beam(), spec, cache=cache)
+    first = part_model.part_model(infill, bent(), Goal(), cache)
+
+    def refuse(*_):
+        raise AssertionError("made again")
+
+    monkeypatch.setattr(part_model, "begun_surface", refuse)
+    second = part_model.part_model(infill, bent(), Goal(), cache)
+    assert first.skin is not None
+    assert second.skin is not None
+    np.testing.assert_array_equal(second.skin.middle, first.skin.middle)
 
 
 @pytest.mark.slow

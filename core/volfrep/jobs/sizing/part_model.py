@@ -19,6 +19,7 @@ from ...shell.thickness_field import ThicknessField
 from ...sizing.model import SizingModel, elastic, feet_of, fixed_facets, sizing_model
 from ...sizing.node_radii import smoothing
 from ...sizing.skin import skin_model
+from ...sizing.skin_mesh import begun_surface
 from ...spatial.proximity import closest_points
 from ...util.cache import StageCache
 from ...util.errors import VolfrepError
@@ -98,10 +99,7 @@ def part_model(
         out = comes_out(goal.printing, wireframe, least)
     skin = None
     if spec.with_skin:
-        edge = infill.filling.skin_edge
-        if goal.limits.frame_buckling is not None:
-            edge *= DIMPLED
-        edge = max(edge, SKIN_EDGE_LEAST * spec.shell)
+        edge = edge_of_skin(infill, goal.limits.frame_buckling is not None)
         held = given_radii(wireframe) if reach is None else reach
         with infill.monitor.stage("skin", 0.3, 0.4):
             skin = skin_model(
@@ -112,6 +110,7 @@ def part_model(
                     held if out is None else out.at_nodes(held),
                 ),
                 infill.monitor, fixed=fixed_facets(infill.solid, loads.cases), thickest=thickest,
+                begun=surface_to_begin_with(infill, edge),
             )  # fmt: skip
     model = sizing_model(
         wireframe, clipped, spec.kind.cube, infill.filling.spacing, material, loads.cases,
@@ -132,6 +131,18 @@ def part_model(
             )
         model = replace(model, problem=model.problem.alike(groups))
     return model
+
+
+def edge_of_skin(infill: Infill, is_dimpled: bool) -> float:
+    """The length of the skin's triangles' edges, mm; less where it is kept from buckling."""
+    edge = infill.filling.skin_edge * (DIMPLED if is_dimpled else 1.0)
+    return max(edge, SKIN_EDGE_LEAST * infill.spec.shell)
+
+
+def surface_to_begin_with(infill: Infill, edge: float) -> TriangleMesh:
+    """The part's surface in triangles that become the skin's, whatever meets it there: kept."""
+    part = infill.part_domain
+    return part.cache.run("surface", begun_surface, part.kept_solid, edge, part.watch).value
 
 
 def without_target(

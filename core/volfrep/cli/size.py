@@ -189,7 +189,8 @@ def _teller(quiet: bool, most_steps: int, goal: Goal) -> Callable[[int, Step], b
         if number:
             each = (now - start) / number
             rest = each * max(most_steps - number - 1, 0)
-            text += f", {each:.2g} s a step, at most {duration(rest)} more"
+            one = duration(each) if each >= 1.0 else f"{each:.2g} s"
+            text += f", {one} a step, at most {duration(rest)} more"
         else:
             start = now  # the time before the first step is the part's
         if sys.stderr.isatty():  # over the line of the progress

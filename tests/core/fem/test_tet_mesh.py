@@ -121,7 +121,7 @@ def test_a_part_has_its_cavity_and_knows_its_outside():
 @pytest.mark.parametrize("cell", ["Box", "FCC", "BCC", "Octet", "Octahedron", "CVC"])
 def test_every_cell_fills_a_box(cell, shell):
     """Without a skin its faces run through the middles of struts, a hair beside their facets."""
-    solid = samples.box((40.0, 30.0, 30.0), (5.0, -5.0, -10.0))
+    solid = samples.box((30.0, 30.0, 30.0), (5.0, -5.0, -10.0))
     spec = LatticeSpec(cell, cell_size=10, strut_radius=1, shell=shell)
     mesh = fill(solid, spec).mesh
     filled = tetrahedra(mesh)

@@ -395,7 +395,7 @@ def test_cancelled_keeps_the_last_mesh(doc, infill, monkeypatch):
         return call.here(lambda fraction, stage: False)
 
     with monkeypatch.context() as patch:
-        patch.setattr(lattice_infill, "run_job", cancelled_at_once)
+        patch.setattr(lattice_infill, "run_call", cancelled_at_once)
         infill.StrutRadius = 0.8
         doc.recompute()
         assert not infill.Proxy.update(infill)
@@ -412,7 +412,7 @@ def test_cancelled_keeps_the_last_mesh(doc, infill, monkeypatch):
 def test_cancelled_the_first_time_speaks_of_no_mesh(doc, box, monkeypatch):
     obj = make_lattice_infill(doc, box, **SMALL)
     with monkeypatch.context() as patch:
-        patch.setattr(lattice_infill, "run_job", lambda _, call: call.here(lambda *_: False))
+        patch.setattr(lattice_infill, "run_call", lambda _, call: call.here(lambda *_: False))
         doc.recompute()
     assert obj.Status == CANCELLED_FIRST
     assert not obj.Mesh.CountFacets

@@ -185,13 +185,8 @@ class SizePanel:
         assert outcome is not None
         close_struts(self._obj)
         store_outcome(self._obj, outcome)
-        begin_update(self._obj, ended=self._show_mesh)
-        if not self._obj.isValid():
-            self._say(self._obj.Status, wrong=True)
+        if not self._keep():
             return False
-        self._loads.end(is_kept=True)
-        self._doc.commitTransaction()
-        self._close()
         label = self._obj.Label
         tables = outcome.tables()
         if self._heat.outcome is not None:
@@ -205,6 +200,13 @@ class SizePanel:
             return False
         outcome = self._heat.outcome
         assert outcome is not None
+        if not self._keep():
+            return False
+        show_report(self._title, f"{self._obj.Label} heat", outcome.tables())
+        return True
+
+    def _keep(self) -> bool:
+        """Update the infill, keep its loads as one step, and close; or say what is wrong."""
         begin_update(self._obj, ended=self._show_mesh)
         if not self._obj.isValid():
             self._say(self._obj.Status, wrong=True)
@@ -212,7 +214,6 @@ class SizePanel:
         self._loads.end(is_kept=True)
         self._doc.commitTransaction()
         self._close()
-        show_report(self._title, f"{self._obj.Label} heat", outcome.tables())
         return True
 
     @property

@@ -13,7 +13,7 @@ from ..fem.tet_mesh import TetrahedralMesh, tetrahedra
 from ..grid.congruent_joints import distinct_joints
 from ..grid.strut_graph import BeamModel, Wireframe
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.proximity import closest_points
+from ..spatial.proximity import are_nearer
 from ..spatial.rays import inside_points
 from ..trim.beam_model import deformed_struts, refuse_fillets
 from ..trim.clip_struts import Clipped
@@ -90,7 +90,7 @@ def joints_at_boundary(
     for joint in distinct_joints(lattice):
         length = np.linalg.norm(joint.arms, axis=1) + joint.radii[:, 1]
         reach[joint.places] = max(float(length.max()), joint.ball)
-    cut = closest_points(domain, nodes)[1] < reach
+    cut = are_nearer(domain, nodes, reach)
     return inside_points(domain, nodes, monitor) & ~cut, cut
 
 

@@ -71,6 +71,28 @@ def closest_points(mesh: TriangleMesh, points: Floats) -> tuple[Floats, Floats, 
     return NearestTriangles(mesh).closest(points)
 
 
+def are_nearer(mesh: TriangleMesh, points: Floats, reach: Floats) -> NDArray[np.bool_]:
+    """(n,) bool, which points are nearer to the mesh than their reach.
+
+    As `closest_points` tells, without looking for the place: of points far off, as the most of a
+    lattice, few boxes are asked.
+
+    Args:
+        mesh: as there.
+        points: (n, 3) float64, mm.
+        reach: (n,) mm.
+
+    Raises:
+        VolfrepError: the mesh is empty.
+
+    >>> corners = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0]], float)
+    >>> facet = TriangleMesh(corners, np.array([[0, 1, 2]], np.int32))
+    >>> are_nearer(facet, np.array([[1.0, 1.0, 3.0], [4.0, 4.0, 0.0]]), np.full(2, 2.9)).tolist()
+    [False, True]
+    """
+    return NearestTriangles(mesh).are_nearer(points, reach)
+
+
 class NearestTriangles:
     """A mesh prepared for `closest_points` of many sets of points.
 
@@ -115,6 +137,42 @@ class NearestTriangles:
             else:
                 closest[part], triangle[part] = found
         return closest, np.linalg.norm(points - closest, axis=1), triangle
+
+    def are_nearer(self, points: Floats, reach: Floats) -> NDArray[np.bool_]:
+        """As the function of this name of the mesh."""
+        result = np.zeros(len(points), bool)
+        pending = [
+            np.arange(start, min(start + POINTS_PER_STEP, len(points)))
+            for start in range(0, len(points), POINTS_PER_STEP)
+        ]
+        while pending:
+            part = pending.pop()
+            found = self._find_nearer(points[part], reach[part])
+            if found is None:  # too many triangles are near for one step
+                pending.extend(np.array_split(part, 2))
+            else:
+                result[part] = found
+        return result
+
+    def _find_nearer(self, points: Floats, reach: Floats) -> NDArray[np.bool_] | None:
+        """As `are_nearer`; None where that would take too much memory at once."""
+        far = float(reach.max(initial=0.0))
+        seed = self._seeds.query(points, distance_upper_bound=far, workers=threads())[1]
+        result = np.zeros(len(points), bool)
+        some = np.flatnonzero(seed < len(self._corners))
+        result[some] = self._meet(seed[some], points[some], reach[some])
+        asking = np.flatnonzero(~result)
+        near = _near_boxes(self._boxes, points[asking], reach[asking] ** 2)
+        if near is None:
+            return None
+        point, triangle = asking[near[0]], self._order[near[1]]
+        result[point[self._meet(triangle, points[point], reach[point])]] = True
+        return result
+
+    def _meet(self, triangle: Ints, points: Floats, reach: Floats) -> NDArray[np.bool_]:
+        """Whether triangle k is nearer to point k than its reach."""
+        place = closest_on_triangles(self._corners[triangle], points)[0]
+        return np.asarray(np.linalg.norm(points - place, axis=1) < reach)
 
     def _reach(self, points: Floats) -> Floats | None:
         """(n,) squares of distances, mm^2, within which the nearest triangle is, from samples."""
@@ -162,18 +220,10 @@ def _descend(
     """Closest points and triangles; None where that would take too much memory at once."""
     best = closest_on_triangles(corners[seed], points)[0]
     squared = squares(points - best)
-    within = squared if reach is None else np.minimum(squared, reach)
-    point, node = np.arange(len(points)), np.zeros(len(points), np.int64)
-    for level in boxes[1:]:
-        point, node = np.repeat(point, 2), np.repeat(2 * node, 2)
-        node[1::2] += 1
-        if len(point) > PAIRS_PER_STEP and len(points) > 1:
-            return None
-        box, p = level[node], points[point]
-        gap = np.maximum(np.maximum(box[:, 0] - p, p - box[:, 1]), 0.0)
-        keep = squares(gap) < within[point]
-        point, node = point[keep], node[keep]
-    triangle = order[node]
+    found = _near_boxes(boxes, points, squared if reach is None else np.minimum(squared, reach))
+    if found is None:
+        return None
+    point, triangle = found[0], order[found[1]]
     candidate = closest_on_triangles(corners[triangle], points[point])[0]
     distance = squares(points[point] - candidate)
     by_distance = np.lexsort((distance, point))
@@ -184,6 +234,24 @@ def _descend(
     seed = seed.copy()
     best[winner], seed[winner] = candidate[rows], triangle[rows]
     return best, seed
+
+
+def _near_boxes(boxes: list[Floats], points: Floats, within: Floats) -> tuple[Ints, Ints] | None:
+    """Points, and the leaves of a tree of boxes that are nearer to them than (n,) squares, mm^2.
+
+    None where that would take too much memory at once.
+    """
+    point, node = np.arange(len(points)), np.zeros(len(points), np.int64)
+    for level in boxes[1:]:
+        point, node = np.repeat(point, 2), np.repeat(2 * node, 2)
+        node[1::2] += 1
+        if len(point) > PAIRS_PER_STEP and len(points) > 1:
+            return None
+        box, p = level[node], points[point]
+        gap = np.maximum(np.maximum(box[:, 0] - p, p - box[:, 1]), 0.0)
+        keep = squares(gap) < within[point]
+        point, node = point[keep], node[keep]
+    return point, node
 
 
 def closest_on_triangles(corners: Floats, points: Floats) -> tuple[Floats, Ints]:

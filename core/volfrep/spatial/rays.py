@@ -10,13 +10,15 @@ from numpy.typing import NDArray
 
 from ..mesh.triangle_mesh import TriangleMesh, corners_at
 from ..util.progress import Monitor
-from ..util.ragged import PAIRS_PER_STEP, pairs_in_steps, spread
+from ..util.ragged import pairs_in_steps, spread
 from ..util.types import Floats, Ints
 from .even_points import even_points
 from .self_intersection import boxes_in_bins
 
 #: Bins along the longest side of the box of all segments and triangles.
 MOST_BINS = 64
+#: Segments that are looked for in bins at a time.
+SEGMENTS_PER_STEP = 1 << 19
 #: Bins that tell whether there is a line near a triangle are so many times finer than those that
 #: hold about one each, and no more than so many along each axis.
 FINER, MOST_FINE = 8, 4096
@@ -198,35 +200,38 @@ def segment_crossings(mesh: TriangleMesh, start: Floats, end: Floats) -> tuple[I
     """
     corners = corners_at(mesh.vertices, mesh.triangles)
     boxes = corners.min(axis=1), corners.max(axis=1)
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    origin = np.minimum(boxes[0].min(axis=0), low.min(axis=0))
-    extent = float(np.ptp(np.vstack([*boxes, low, high]), axis=0).max())
-    size = max(float((high - low).max()) / 4.0, extent / MOST_BINS)
-    segment, segment_bin = boxes_in_bins(low, high, origin, size)
+    parts = [slice(k, k + SEGMENTS_PER_STEP) for k in range(0, len(start), SEGMENTS_PER_STEP)]
+    origin, most, longest = boxes[0].min(axis=0), boxes[1].max(axis=0), 0.0
+    for part in parts:
+        low, high = np.minimum(start[part], end[part]), np.maximum(start[part], end[part])
+        origin, most = np.minimum(origin, low.min(axis=0)), np.maximum(most, high.max(axis=0))
+        longest = max(longest, float((high - low).max()))
+    size = max(longest / 4.0, float((most - origin).max()) / MOST_BINS)
     triangle, triangle_bin = boxes_in_bins(*boxes, origin, size)
     order = np.argsort(triangle_bin, kind="stable")
     triangle, triangle_bin = triangle[order], triangle_bin[order]
-    first = np.searchsorted(triangle_bin, segment_bin)
-    count = np.searchsorted(triangle_bin, segment_bin, "right") - first
-    total = np.concatenate([[0], np.cumsum(count)])
-    found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0, np.int64))]
-    begin = 0
-    while begin < len(count):
-        stop = max(
-            int(np.searchsorted(total, total[begin] + PAIRS_PER_STEP, "right")) - 1, begin + 1
-        )
-        row, place = spread(count[begin:stop])
-        a, b = segment[begin + row], triangle[first[begin + row] + place]
-        touching = (low[a] <= boxes[1][b]).all(axis=1) & (high[a] >= boxes[0][b]).all(axis=1)
-        a, b = a[touching], b[touching]
-        hit, share, way = _cross(mesh, start[a], end[a], b)
-        found.append((a[hit], b[hit], share, way))
-        begin = stop
-    a, b, share, way = (np.concatenate(column) for column in zip(*found, strict=True))
-    # A pair may have met in several bins.
-    _, once = np.unique(a * len(corners) + b, return_index=True)
-    once = once[np.lexsort((share[once], a[once]))]
-    return a[once], share[once], way[once]
+    found = [(np.zeros(0, np.int64), np.zeros(0), np.zeros(0, np.int64))]
+    for part in parts:
+        low, high = np.minimum(start[part], end[part]), np.maximum(start[part], end[part])
+        segment, segment_bin = boxes_in_bins(low, high, origin, size)
+        first = np.searchsorted(triangle_bin, segment_bin)
+        count = np.searchsorted(triangle_bin, segment_bin, "right") - first
+        several = np.flatnonzero(count)
+        segment, first = segment[several], first[several]
+        pairs = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0, np.int64))]
+        for row, place in pairs_in_steps(count[several]):
+            a, b = segment[row], triangle[first[row] + place]
+            touching = (low[a] <= boxes[1][b]).all(axis=1) & (high[a] >= boxes[0][b]).all(axis=1)
+            a, b = a[touching] + part.start, b[touching]
+            hit, share, way = _cross(mesh, start[a], end[a], b)
+            pairs.append((a[hit], b[hit], share, way))
+        a, b, share, way = (np.concatenate(column) for column in zip(*pairs, strict=True))
+        # A pair may have met in several bins.
+        _, once = np.unique(a * len(corners) + b, return_index=True)
+        once = once[np.lexsort((share[once], a[once]))]
+        found.append((a[once], share[once], way[once]))
+    a, share, way = (np.concatenate(column) for column in zip(*found, strict=True))
+    return a, share, way
 
 
 def _cross(

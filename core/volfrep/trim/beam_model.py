@@ -10,7 +10,7 @@ from ..design.spec_parts import Grid, Skin, Struts
 from ..grid.strut_graph import BeamModel, Wireframe, select_struts
 from ..mesh.booleans import difference
 from ..mesh.triangle_mesh import TriangleMesh, concatenate
-from ..spatial.proximity import closest_points
+from ..spatial.proximity import are_nearer
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
@@ -63,7 +63,7 @@ def reaching_into(lattice: Wireframe, solid: TriangleMesh) -> Wireframe:
     reach += lattice.joint_radii[lattice.struts].max(axis=1)
     outside = np.flatnonzero(~inside_points(solid, middle, Monitor()))
     if len(outside):
-        outside = outside[closest_points(solid, middle[outside])[1] > reach[outside]]
+        outside = outside[~are_nearer(solid, middle[outside], reach[outside])]
     kept = np.delete(np.arange(len(middle)), outside)
     return select_struts(lattice, kept)
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..grid.strut_graph import Wireframe
 from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.proximity import closest_points
+from ..spatial.proximity import are_nearer
 from ..spatial.rays import segment_crossings
 from ..util.ragged import spread
 from ..util.types import Bools, Floats, Ints
@@ -72,7 +72,7 @@ def clip(wireframe: Wireframe, domain: TriangleMesh, inside: Pieces | None = Non
     whole = (low == 0.0) & (high == 1.0)
     kept = whole | ((high - low) * length > SHORTEST_PIECE * radius)
 
-    on_boundary = closest_points(domain, wireframe.nodes)[1] < AT_WALL * wireframe.joint_radii
+    on_boundary = are_nearer(domain, wireframe.nodes, AT_WALL * wireframe.joint_radii)
     for side, at_end in ((0, low == 0.0), (1, high == 1.0)):
         on_boundary[wireframe.struts[owner[~kept & at_end], side]] = True
     return _assemble(wireframe, on_boundary, owner[kept], low[kept], high[kept])

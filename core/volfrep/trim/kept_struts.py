@@ -15,7 +15,7 @@ from ..design.openings import lie_on
 from ..grid.strut_graph import Wireframe, select_struts
 from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.proximity import closest_points
+from ..spatial.proximity import are_nearer
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
 from .clip_struts import AT_WALL, Clipped, Pieces, clip, pieces_inside
@@ -221,15 +221,19 @@ def _on_skin(
     pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh, openings: TriangleMesh | None
 ) -> Bools:
     """(p,) the pieces that a skin holds: it cuts them, or their material reaches it."""
-    start, end = _ends(pieces, lattice)
-    result = np.zeros(len(start), bool)
-    for point, cut, side in ((start, pieces.low > 0.0, 0), (end, pieces.high < 1.0, 1)):
-        reach = lattice.joint_radii[lattice.struts[pieces.owner, side]]
-        held_there = cut | (closest_points(boundary, point)[1] < reach)
-        if openings is not None:
-            held_there &= ~lie_on(openings, point, reach)
-        result |= held_there
-    return result
+    ends = lattice.struts[pieces.owner]
+    cut = np.stack([pieces.low > 0.0, pieces.high < 1.0], axis=1)
+    # A node is asked for once, whatever struts it has.
+    asked = np.flatnonzero(np.bincount(ends[~cut], minlength=len(lattice.nodes)))
+    near = np.zeros(len(lattice.nodes), bool)
+    near[asked] = are_nearer(boundary, lattice.nodes[asked], lattice.joint_radii[asked])
+    held = cut | near[ends]
+    if openings is not None:
+        for side, points in enumerate(_ends(pieces, lattice)):
+            some = np.flatnonzero(held[:, side])
+            reach = lattice.joint_radii[ends[some, side]]
+            held[some, side] = ~lie_on(openings, points[some], reach)
+    return np.asarray(held.any(axis=1))
 
 
 def _ends(pieces: Pieces, lattice: Wireframe) -> tuple[Floats, Floats]:
@@ -271,7 +275,7 @@ def _along(pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh) -> Ints:
     asked = np.unique(lattice.struts[outside])
     near = np.zeros(len(lattice.nodes), bool)
     if len(asked):
-        near[asked] = closest_points(boundary, lattice.nodes[asked])[1] < lattice.joint_radii[asked]
+        near[asked] = are_nearer(boundary, lattice.nodes[asked], lattice.joint_radii[asked])
     return np.flatnonzero(outside & near[lattice.struts].all(axis=1))
 
 

@@ -22,7 +22,7 @@ from ..grid.strut_graph import CellGraph, Wireframe, select_struts, struts_of
 from ..lattice.padded_grid import PaddedGrid
 from ..mesh.triangle_mesh import TriangleMesh
 from ..shell.domain import Domain
-from ..spatial.proximity import closest_points
+from ..spatial.proximity import are_nearer
 from ..util.types import Bools, Ints
 from .clip_struts import Pieces, pieces_inside
 
@@ -180,8 +180,8 @@ def _to_near_nodes(pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh) -
     outside = np.flatnonzero(~inside)
     near = np.zeros(len(lattice.nodes), bool)
     if len(outside):
-        distance = closest_points(boundary, lattice.nodes[outside])[1]
-        near[outside] = distance < NODE_REACH * lattice.joint_radii[outside]
+        reach = NODE_REACH * lattice.joint_radii[outside]
+        near[outside] = are_nearer(boundary, lattice.nodes[outside], reach)
     first = np.diff(pieces.owner, prepend=-1) > 0
     last = np.diff(pieces.owner, append=len(lattice.struts)) > 0
     low = np.where(first & near[lattice.struts[pieces.owner, 0]], 0.0, pieces.low)

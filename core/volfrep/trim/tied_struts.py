@@ -26,6 +26,8 @@ from .clip_struts import SHORTEST_PIECE, Clipped
 
 #: Axes nearer to each other than this, in radii, meet in one node; others get a tie.
 _MEETS = 0.1
+#: Bins along the longest side in which struts are that others may touch.
+MOST_BINS = 256
 #: A strut outside the wall of which less than this share of the section is inside is none.
 _LEAST_SECTION = 0.05
 
@@ -189,13 +191,15 @@ def find_touching(
     length = np.linalg.norm(end - start, axis=1)
     # Every strut as points no farther apart than its radius; those of all but the largest group
     # look for others near them.
-    samples = np.ceil(length / radius).astype(np.int64) + 1
-    strut, place = spread(samples)
-    share = place / np.maximum(samples[strut] - 1, 1)
-    points = start[strut] + share[:, None] * (end - start)[strut]
-    main = np.bincount(group, length).argmax()
-    asking = np.flatnonzero(group[strut] != main)
-    near = cKDTree(points).query_ball_point(points[asking], 3.0 * radius.max(), return_sorted=False)
+    asks = group != np.bincount(group, length).argmax()
+    reach = 3.0 * float(radius.max())
+    some = _within_bins(0.5 * (start + end), asks, float(length.max()) + reach)
+    samples = np.ceil(length[some] / radius[some]).astype(np.int64) + 1
+    row, place = spread(samples)
+    share, strut = place / np.maximum(samples[row] - 1, 1), some[row]
+    points = start[strut] + share[:, None] * (end[strut] - start[strut])
+    asking = np.flatnonzero(asks[strut])
+    near = cKDTree(points).query_ball_point(points[asking], reach, return_sorted=False)
     found = np.fromiter((len(each) for each in near), np.int64, len(near))
     other = strut[np.concatenate([*near, np.empty(0)]).astype(np.int64)]
     pairs = np.stack([np.repeat(strut[asking], found), other], axis=1)
@@ -204,6 +208,22 @@ def find_touching(
     places, gap = _nearest_places(start[a], end[a], start[b], end[b])
     touch = gap < radius[a] + radius[b]
     return pairs[touch], places[touch], gap[touch]
+
+
+def _within_bins(points: Floats, asks: Bools, reach: float) -> Ints:
+    """Rows of (n, 3) points that may be as near as the reach, mm, to one that asks; and those."""
+    low = points.min(axis=0)
+    span = points.max(axis=0) - low
+    size = max(reach, float(span.max()) / MOST_BINS, 1e-300)
+    cell = ((points - low) / size).astype(np.int64)
+    shape = (span / size).astype(np.int64) + 3
+    middle = np.ravel_multi_index((1, 1, 1), tuple(shape))
+    flat = np.ravel_multi_index(tuple(cell.T + 1), tuple(shape))
+    asked = np.unique(flat[asks])
+    near = np.zeros(int(shape.prod()), bool)
+    for step in np.ndindex(3, 3, 3):
+        near[asked + np.ravel_multi_index(step, tuple(shape)) - middle] = True
+    return np.flatnonzero(near[flat])
 
 
 def _nearest_places(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats]:

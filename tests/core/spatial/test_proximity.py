@@ -7,6 +7,7 @@ import samples
 from volfrep.mesh.triangle_mesh import empty_mesh
 from volfrep.spatial.proximity import (
     POINTS_PER_WALK,
+    are_nearer,
     closest_on_triangles,
     closest_points,
     index_surface,
@@ -32,6 +33,8 @@ def test_exact_distances_agree_with_trimesh(part):
     np.testing.assert_allclose(np.linalg.norm(points - closest, axis=1), distance, atol=1e-12)
     corners = part.vertices[part.triangles[triangle]]
     np.testing.assert_allclose(closest_on_triangles(corners, points)[0], closest, atol=1e-12)
+    reach = random.choice([0.1, 3.0, 12.0], len(points))
+    np.testing.assert_array_equal(are_nearer(part, points, reach), expected < reach)
 
 
 @pytest.mark.slow

@@ -10,6 +10,7 @@ from volfrep.grid.strut_graph import Wireframe
 from volfrep.jobs.beam_part import clipped_infill
 from volfrep.jobs.blocks import block
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.spatial import rays
 from volfrep.spatial.proximity import closest_points
 from volfrep.spatial.rays import segment_crossings
 from volfrep.trim.clip_struts import clip
@@ -100,12 +101,15 @@ def test_radii_of_a_cut_cone():
     )
 
 
-def test_crossings_agree_with_an_exact_inside_test():
+def test_crossings_agree_with_an_exact_inside_test(monkeypatch):
     mesh = samples.bracket(turn=17)
     rng = np.random.default_rng(1)
     low, high = mesh.bounds
     start, end = rng.uniform(low - 5, high + 5, (2, 4000, 3))
     segment, place, way = segment_crossings(mesh, start, end)
+    monkeypatch.setattr(rays, "SEGMENTS_PER_STEP", 999)
+    for some, whole in zip(segment_crossings(mesh, start, end), (segment, place, way), strict=True):
+        np.testing.assert_array_equal(some, whole)
     is_in = [samples.inside_bracket(points, turn=17).astype(int) for points in (start, end)]
     assert np.array_equal(np.bincount(segment, -way, len(start)), is_in[1] - is_in[0])
     assert (np.diff(place)[np.diff(segment) == 0] > 0).all()

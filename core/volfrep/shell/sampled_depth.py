@@ -17,7 +17,7 @@ from .smooth_regions import SmoothRegions
 #: cubes' edges still have whole middles.
 COARSEST = 32
 #: No more lines than this are looked at to know which nodes are inside.
-MOST_LINES = 3_000_000
+MOST_LINES = 200_000
 #: Distances from large cubes' middles are too long by less than this (their edges), where the
 #: surface is sampled no more densely than they need.
 SAMPLED = 0.1

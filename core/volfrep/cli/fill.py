@@ -29,6 +29,7 @@ from .telling import print_rows, print_summary, print_warnings, write_report
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
+    from ..design.forecast import BeamForecast, Forecast
     from ..design.spec import LatticeSpec
     from ..io.solid import Solid
     from ..output.sources import Block, FilledPart, FreeGraph
@@ -78,7 +79,7 @@ def run_fill(given: argparse.Namespace) -> None:
         _fill_surface(options)
         return
 
-    from ..design.forecast import forecast_fill
+    from ..design.forecast import forecast_fill, forecast_fill_beams
     from ..jobs.kinds import lattice_kind
     from ..jobs.targets import solve_target
     from ..output.sources import FilledPart
@@ -96,7 +97,10 @@ def run_fill(given: argparse.Namespace) -> None:
         rough.kind.refuse_crossing()
     expected = forecast_fill(solid, rough, streamed=options.is_file_alone)
     if not options.quiet:
-        print(f"Expected: {expected if meshed else expected.of_axes}.", flush=True)
+        told = str(expected) if meshed else expected.of_axes
+        if options.form.is_beams_alone:
+            told = str(forecast_fill_beams(solid, rough))
+        print(f"Expected: {told}.", flush=True)
     is_cut = meshed and spec.kind.is_cut_in_groups and spec.output != "domain"
     cut = expected.triangles if is_cut else 0
     with _workers(options, cut) as executor, drawn(options.quiet) as progress:
@@ -175,7 +179,7 @@ def run_block(given: argparse.Namespace) -> None:
     """Run ``volfrep block``."""
     options = block_options(given)
 
-    from ..design.forecast import forecast_block
+    from ..design.forecast import forecast_block, forecast_block_beams
 
     before: dict[str, float]
     start, count, meshed = time.perf_counter(), options.count, options.form.meshed
@@ -195,11 +199,15 @@ def run_block(given: argparse.Namespace) -> None:
     streamed = options.is_file_alone and bool(options.form.octants_by)
 
     def expect(spec: LatticeSpec) -> None:
-        spec.kind.refuse_crossing()
+        if meshed:
+            spec.kind.refuse_crossing()
         if not options.quiet:
-            print(f"Expected: {forecast_block(spec, count, streamed=streamed)}.", flush=True)
+            told: Forecast | BeamForecast = forecast_block(spec, count, streamed=streamed)
+            if options.form.is_beams_alone:
+                told = forecast_block_beams(spec, count)
+            print(f"Expected: {told}.", flush=True)
 
-    tell = expect if meshed else None
+    tell = expect if meshed or options.form.is_beams_alone else None
     if options.spec.target is None:
         from ..jobs.kinds import lattice_kind
 

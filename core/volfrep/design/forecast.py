@@ -61,9 +61,7 @@ class Forecast:
     @property
     def of_axes(self) -> str:
         """Where nothing is meshed: the struts, and no triangles, memory and file of a mesh."""
-        counts = {"cells": self.cells, "struts": self.struts}
-        parts = (f"{round_off(count)} {what}" for what, count in counts.items() if count)
-        return f"about {', '.join(parts)}"
+        return _counted(self.cells, self.struts)
 
     def __str__(self) -> str:
         return (
@@ -71,6 +69,37 @@ class Forecast:
             f"{round_off(self.memory_gb)} GB of memory, an STL file of {round_off(self.stl_mb)} MB "
             f"and {duration(self.seconds)}"
         )
+
+
+@dataclass(frozen=True)
+class BeamForecast:
+    """What a lattice as beams in a 3MF file will come to, about.
+
+    Attributes:
+        cells: active unit cells; 0 for a graph.
+        struts: of the lattice.
+        memory_gb: at the peak.
+        file_mb: size of the file.
+        seconds: on two cores.
+    """
+
+    cells: int
+    struts: int
+    memory_gb: float
+    file_mb: float
+    seconds: float
+
+    def __str__(self) -> str:
+        return (
+            f"{_counted(self.cells, self.struts)}, {round_off(self.memory_gb)} GB of memory, a 3MF "
+            f"file of {round_off(self.file_mb)} MB and {duration(self.seconds)}"
+        )
+
+
+def _counted(cells: int, struts: int) -> str:
+    counts = {"cells": cells, "struts": struts}
+    parts = (f"{round_off(count)} {what}" for what, count in counts.items() if count)
+    return f"about {', '.join(parts)}"
 
 
 def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = False) -> Forecast:
@@ -100,8 +129,7 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
         grid = np.ceil(np.ptp(solid.bounds, axis=0) / spec.cell_size - 1e-6).prod()
         cells = min(cells, float(grid) * spec.cell_size**3 / one)
     narrow = narrow_gaps(solid, spec)
-    seconds = costs.SECONDS + costs.SECONDS_PER_BEND * bends + costs.SECONDS_PER_NARROW * narrow
-    seconds += costs.SECONDS_PER_TRIANGLE * triangles
+    seconds = _skin_seconds(solid, spec) + costs.SECONDS_PER_TRIANGLE * triangles
     if spec.output != "domain":
         # Within a part all cells are there: those of the octants that are not lie outside.
         seconds += spec.kind.meshing_seconds(1.0)
@@ -116,6 +144,20 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     held = max(held, costs.BYTES_PER_BEND * bends + costs.BYTES_PER_NARROW * narrow)
     held += costs.BYTES_GRADED if spec.is_graded else 0.0
     return _forecast(cells, spec.kind.strut_shares(), triangles, held / triangles, seconds)
+
+
+def forecast_fill_beams(solid: TriangleMesh, spec: LatticeSpec) -> BeamForecast:
+    """What `infill.Infill.beams` and its file will come to; as quick as `forecast_fill`."""
+    told = forecast_fill(solid, spec)
+    seconds = _skin_seconds(solid, spec) + costs.SECONDS_PER_BEAM * told.struts
+    held = costs.BYTES_OF_A_PART + costs.BYTES_PER_BEAM * told.struts
+    return _forecast_beams(told, held, seconds)
+
+
+def _skin_seconds(solid: TriangleMesh, spec: LatticeSpec) -> float:
+    """Of a job's start and its skin's wall, on two cores."""
+    narrow = costs.SECONDS_PER_NARROW * narrow_gaps(solid, spec)
+    return costs.SECONDS + costs.SECONDS_PER_BEND * skin_bends(solid, spec) + narrow
 
 
 def share_deeper(solid: TriangleMesh, depth: float) -> float:
@@ -251,8 +293,7 @@ def _forecast_graph(
     triangles = costs.TRIANGLES_PER_STRUT * struts + len(solid.triangles)
     bends = skin_bends(solid, spec)
     narrow = narrow_gaps(solid, spec)
-    seconds = costs.SECONDS + costs.SECONDS_PER_BEND * bends + costs.SECONDS_PER_NARROW * narrow
-    seconds += costs.SECONDS_PER_NETWORK_TRIANGLE * triangles
+    seconds = _skin_seconds(solid, spec) + costs.SECONDS_PER_NETWORK_TRIANGLE * triangles
     share = np.array([struts / points])
     wall = costs.BYTES_PER_BEND * bends + costs.BYTES_PER_NARROW * narrow
     held = max(costs.BYTES_PER_NETWORK_TRIANGLE * triangles, wall)
@@ -283,6 +324,23 @@ def forecast_block(spec: LatticeSpec, count: Sequence[int], *, streamed: bool = 
     if spec.target is not None:
         seconds, held = seconds + costs.SECONDS_FOR_TARGET, held + costs.BYTES_FOR_TARGET
     return _forecast(cells, shares, triangles, held / triangles, seconds)
+
+
+def forecast_block_beams(spec: LatticeSpec, count: Sequence[int]) -> BeamForecast:
+    """What `beam_part.block_beams` and its file will come to, for so many cells along x, y, z."""
+    told = forecast_block(spec, count)
+    seconds = costs.SECONDS + costs.SECONDS_PER_BLOCK_BEAM * told.struts
+    return _forecast_beams(told, costs.BYTES_PER_STRUT * told.struts, seconds)
+
+
+def _forecast_beams(told: Forecast, held: float, seconds: float) -> BeamForecast:
+    return BeamForecast(
+        cells=told.cells,
+        struts=told.struts,
+        memory_gb=(costs.BYTES + held) / 1e9,
+        file_mb=costs.FILE_BYTES_PER_BEAM * told.struts / 1e6,
+        seconds=seconds,
+    )
 
 
 def expected_triangles(spec: LatticeSpec, volume: float) -> float:

@@ -18,6 +18,9 @@ from ..util.types import Bools, Floats, Ints
 if TYPE_CHECKING:
     import pandas
 
+#: Struts looked at in one step (bounds the memory).
+STRUTS_PER_STEP = 1 << 16
+
 
 @dataclass(frozen=True, eq=False)
 class Graph:
@@ -35,6 +38,15 @@ class Graph:
     def genus(self) -> int:
         """Independent loops if the graph is in one piece: struts - nodes + 1."""
         return len(self.struts) - len(self.nodes) + 1
+
+    def lengths(self) -> Floats:
+        """(m,) of the struts, mm."""
+        result = np.empty(len(self.struts))
+        for start in range(0, len(result), STRUTS_PER_STEP):
+            part = slice(start, start + STRUTS_PER_STEP)
+            ends = self.nodes[self.struts[part]]
+            result[part] = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,12 +82,11 @@ class Wireframe(Graph):
         [8.66]
         """
         ends = self.nodes[self.struts]
-        lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         columns: dict[str, Any] = {"node": self.struts[:, 0], "other_node": self.struts[:, 1]}
         columns |= {name: ends[:, 0, k] for k, name in enumerate("xyz")}
         columns |= {f"other_{name}": ends[:, 1, k] for k, name in enumerate("xyz")}
         radii = {"radius": self.radii[:, 0], "other_radius": self.radii[:, 1]}
-        return make_frame({**columns, "length": lengths, **radii})
+        return make_frame({**columns, "length": self.lengths(), **radii})
 
 
 #: The struts of what has none.
@@ -145,21 +156,30 @@ def cell_graph(
         whole[:, :, axis] %= cells.shape[axis]
     shape = np.array(cells.shape) + 1
     packed = np.ravel_multi_index(tuple(np.moveaxis(whole, -1, 0)), tuple(shape))
-    packed = packed * len(places) + place_of.ravel()[None, :]
-    unique, inverse = np.unique(packed.ravel(), return_inverse=True)
-    inverse = inverse.reshape(packed.shape)
+    del whole
+    packed *= len(places)
+    packed += place_of.ravel()
+    # All places of the grid are few enough for a look at each, which is quicker than to sort.
+    used = np.zeros(int(shape.prod()) * len(places), bool)
+    used[packed] = True
+    unique = np.flatnonzero(used)
+    node_of = (np.cumsum(used, dtype=np.int32) - np.int32(1))[packed]
+    del packed, used
     corner = np.stack(np.unravel_index(unique // len(places), tuple(shape)), axis=1)
     nodes = origin + cell_size * (corner + places[unique % len(places)] / steps)
+    del corner
 
-    ends = inverse[:, cell.struts]  # (cells, struts, 2)
-    ends = np.sort(ends.reshape(-1, 2), axis=1)
-    strut_keys = np.unique(ends[:, 0] * len(unique) + ends[:, 1])
-    struts = np.stack([strut_keys // len(unique), strut_keys % len(unique)], axis=1)
+    a, b = (node_of[:, cell.struts[:, end]].ravel() for end in (0, 1))
+    key = np.minimum(a, b).astype(np.int64) * len(unique)
+    key += np.maximum(a, b)
+    del a, b
+    key.sort()
+    key = key[np.diff(key, prepend=-1) > 0]
+    struts = np.empty((len(key), 2), np.int32)
+    struts[:, 0], struts[:, 1] = key // len(unique), key % len(unique)
     row = np.full(cells.shape, -1, np.int32)
     row[cells] = np.arange(len(index))
-    return CellGraph(
-        nodes, struts.astype(np.int32), row, inverse.astype(np.int32), np.array(first, np.int64)
-    )
+    return CellGraph(nodes, struts, row, node_of, np.array(first, np.int64))
 
 
 def struts_of(graph: CellGraph, cell: UnitCell, cells: NDArray[np.int32]) -> Bools:

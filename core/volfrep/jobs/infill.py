@@ -178,7 +178,7 @@ class Infill:
             return self.lattice_beams
         self._refuse_beams()
         kept, drains = self._kept(is_cut=True), self.spec.drains
-        struts = kept.without_loose(self.struts)
+        struts = self._reaching_into(self.solid, kept)
         made = part_beams(self.solid, self.cavity, struts, self.spec.skin, drains, self.monitor)
         warnings = self._beam_warnings + made.warnings
         return replace(made, warnings=warnings, loose=kept.notes)
@@ -188,10 +188,11 @@ class Infill:
         """The lattice as beams, without a skin."""
         self._refuse_beams()
         kept, clip_at = self._kept(is_cut=self.spec.ending.is_trimmed), None
-        struts = kept.without_loose(self.struts)
         if self.spec.ending.is_trimmed:
             clip_at = self.solid if self.spec.skin is None else self.cavity
-            struts = reaching_into(struts, clip_at)
+            struts = self._reaching_into(clip_at, kept)
+        else:
+            struts = kept.without_loose(self.struts)
         return BeamModel(struts, clip_at, warnings=self._beam_warnings, loose=kept.notes)
 
     @cached_property
@@ -215,6 +216,12 @@ class Infill:
     @property
     def _beam_warnings(self) -> tuple[str, ...]:
         return self.warnings + deformed_struts(self.spec.grid, self.spec.struts)
+
+    def _reaching_into(self, wall: TriangleMesh, kept: KeptStruts) -> Wireframe:
+        """The struts that stay and reach into a closed mesh about the domain or at its wall."""
+        struts = kept.without_loose(self.struts)
+        inside = kept.inside(self.struts)[kept.whole(self.struts)]
+        return reaching_into(struts, wall, inside)
 
     def _refuse_beams(self) -> None:
         self.kind.refuse_beams()

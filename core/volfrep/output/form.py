@@ -67,6 +67,11 @@ class Form:
         return MESH in self.needs
 
     @property
+    def is_beams_alone(self) -> bool:
+        """Whether it holds struts as beams, and nothing is meshed for it."""
+        return self.needs == (BEAMS,)
+
+    @property
     def is_folder(self) -> bool:
         """Whether it is a folder of files."""
         return SECTIONS in self.needs

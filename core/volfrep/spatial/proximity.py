@@ -30,6 +30,8 @@ from ..util.types import Floats, Ints
 #: Points, or pairs of a point and a triangle, that one vectorised step takes at a time.
 POINTS_PER_STEP = 50_000
 PAIRS_PER_STEP = 2_000_000
+#: So many points are told by one cube at first whether they are near at all.
+POINTS_PER_CUBE = 32
 #: Points that one thread looks for at a time.
 POINTS_PER_WALK = 4096
 #: How often the walk from a nearest sample to the nearest triangle may cross an edge.
@@ -141,9 +143,9 @@ class NearestTriangles:
     def are_nearer(self, points: Floats, reach: Floats) -> NDArray[np.bool_]:
         """As the function of this name of the mesh."""
         result = np.zeros(len(points), bool)
+        some = self._in_near_cubes(points, float(reach.max(initial=0.0)))
         pending = [
-            np.arange(start, min(start + POINTS_PER_STEP, len(points)))
-            for start in range(0, len(points), POINTS_PER_STEP)
+            some[start : start + POINTS_PER_STEP] for start in range(0, len(some), POINTS_PER_STEP)
         ]
         while pending:
             part = pending.pop()
@@ -153,6 +155,26 @@ class NearestTriangles:
             else:
                 result[part] = found
         return result
+
+    def _in_near_cubes(self, points: Floats, reach: float) -> Ints:
+        """Rows of points in cubes, of several points each, that may be nearer than the reach."""
+        if len(points) < POINTS_PER_STEP:
+            return np.arange(len(points))
+        low = points.min(axis=0)
+        span = points.max(axis=0) - low
+        size = max(float(span.max()), 1e-300) / (len(points) / POINTS_PER_CUBE) ** (1.0 / 3.0)
+        shape = tuple((span / size).astype(np.int64) + 1)
+        cube = np.ravel_multi_index(tuple(((points - low) / size).astype(np.int64).T), shape)
+        held = np.flatnonzero(np.bincount(cube))
+        middle = low + size * (np.stack(np.unravel_index(held, shape), axis=1) + 0.5)
+        within = (reach + 0.5 * 1.001 * np.sqrt(3.0) * size) ** 2
+        near = np.zeros(int(np.prod(shape)), bool)
+        for start in range(0, len(held), POINTS_PER_STEP):
+            part = slice(start, start + POINTS_PER_STEP)
+            found = _near_boxes(self._boxes, middle[part], np.full(len(middle[part]), within))
+            # Where they are near too many boxes to be told here, they are near some.
+            near[held[part] if found is None else held[part][found[0]]] = True
+        return np.flatnonzero(near[cube])
 
     def _find_nearer(self, points: Floats, reach: Floats) -> NDArray[np.bool_] | None:
         """As `are_nearer`; None where that would take too much memory at once."""

@@ -14,6 +14,7 @@ from ..spatial.proximity import are_nearer
 from ..spatial.rays import inside_points
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
+from ..util.types import Bools
 from .drains import drain
 from .trimmed_surface import TrimmedSurface
 
@@ -31,7 +32,7 @@ def part_beams(
     Args:
         solid: the part, mm.
         cavity: closed mesh of what its skin leaves, mm.
-        struts: of the lattice, where they lie in the part.
+        struts: those of the lattice that reach into the part.
         skin: between the two.
         drains: holes through it; None for none.
         monitor: for progress and cancel.
@@ -39,13 +40,12 @@ def part_beams(
     Raises:
         VolfrepError: a drain hole cannot be where it is wanted.
     """
-    lattice = reaching_into(struts, solid)
     boundary = joined_boundary(solid, cavity, skin)
     if drains is None:
-        return BeamModel(lattice, solid, boundary)
+        return BeamModel(struts, solid, boundary)
     closed = TrimmedSurface(boundary)
-    drained = drain(closed, solid, cavity, lattice, skin.deepest, drains, monitor)
-    return BeamModel(lattice, solid, drained.surface.mesh, drained.warnings)
+    drained = drain(closed, solid, cavity, struts, skin.deepest, drains, monitor)
+    return BeamModel(struts, solid, drained.surface.mesh, drained.warnings)
 
 
 def joined_boundary(solid: TriangleMesh, cavity: TriangleMesh, skin: Skin) -> TriangleMesh:
@@ -55,17 +55,24 @@ def joined_boundary(solid: TriangleMesh, cavity: TriangleMesh, skin: Skin) -> Tr
     return concatenate(solid, cavity.reversed())
 
 
-def reaching_into(lattice: Wireframe, solid: TriangleMesh) -> Wireframe:
-    """The lattice without the struts that lie outside a closed mesh altogether."""
-    ends = lattice.nodes[lattice.struts]
+def reaching_into(lattice: Wireframe, solid: TriangleMesh, inside: Bools) -> Wireframe:
+    """The lattice without the struts that lie outside a closed mesh altogether.
+
+    Args:
+        lattice: mm.
+        solid: the mesh, mm.
+        inside: (m,) struts that reach into it as is known already.
+    """
+    asked = np.flatnonzero(~inside)
+    ends = lattice.nodes[lattice.struts[asked]]
     middle = ends.mean(axis=1)
     reach = 0.5 * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    reach += lattice.joint_radii[lattice.struts].max(axis=1)
+    reach += lattice.joint_radii[lattice.struts[asked]].max(axis=1)
     outside = np.flatnonzero(~inside_points(solid, middle, Monitor()))
-    if len(outside):
-        outside = outside[~are_nearer(solid, middle[outside], reach[outside])]
-    kept = np.delete(np.arange(len(middle)), outside)
-    return select_struts(lattice, kept)
+    outside = outside[~are_nearer(solid, middle[outside], reach[outside])]
+    if not len(outside):
+        return lattice
+    return select_struts(lattice, np.delete(np.arange(len(inside)), asked[outside]))
 
 
 def refuse_fillets(struts: Struts) -> None:

@@ -94,18 +94,17 @@ class Pieces:
 
     def lengths(self, wireframe: Wireframe) -> Floats:
         """(p,) in mm."""
-        ends = wireframe.nodes[wireframe.struts]
-        length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-        return np.asarray(length[self.owner] * (self.high - self.low))
+        return np.asarray(wireframe.lengths()[self.owner] * (self.high - self.low))
 
 
 def pieces_inside(wireframe: Wireframe, domain: TriangleMesh) -> Pieces:
     """The pieces of the struts' axes inside a closed mesh, however short."""
     start, end = wireframe.nodes[wireframe.struts].swapaxes(0, 1)
     strut, place, step = segment_crossings(domain, start, end)
+    del start, end
     inside = _inside(wireframe, domain, strut, place, step)
     # Every strut becomes pieces between its ends and its crossings, by turns inside and outside.
-    count = np.bincount(strut, minlength=len(start))
+    count = np.bincount(strut, minlength=len(wireframe.struts))
     owner, piece = spread(count + 1)
     first = np.concatenate([[0], np.cumsum(count)])[owner]
     padded = np.concatenate([place, [np.nan]])

@@ -19,7 +19,7 @@ from ..spatial.proximity import are_nearer
 from ..util.errors import VolfrepError
 from ..util.types import Bools, Floats, Ints
 from .clip_struts import AT_WALL, Clipped, Pieces, clip, pieces_inside
-from .tied_struts import drawn_together, find_touching, groups_of, tied, with_grazing
+from .tied_struts import about, drawn_together, find_touching, groups_of, tied, with_grazing
 
 #: Struts that are one body as a mesh and hang on nothing as beams are refused from this share of
 #: their volume on.
@@ -67,11 +67,18 @@ class KeptStruts:
         count = len(lattice.struts)
         if self.stays.all() and self.has_skin:
             return np.ones(count, bool)
-        stays = np.bincount(self.pieces.owner[self.stays], minlength=count) > 0
-        outside = np.bincount(self.pieces.owner, minlength=count) == 0
+        stays = np.zeros(count, bool)
+        stays[self.pieces.owner[self.stays]] = True
+        outside = ~self.inside(lattice)
         joined = np.zeros(len(lattice.nodes), bool)
         joined[lattice.struts[stays]] = True
         return np.asarray(stays | (outside & joined[lattice.struts].any(axis=1)))
+
+    def inside(self, lattice: Wireframe) -> Bools:
+        """(m,) the struts of the lattice that have a piece, whether it stays or not."""
+        result = np.zeros(len(lattice.struts), bool)
+        result[self.pieces.owner] = True
+        return result
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -238,9 +245,14 @@ def _on_skin(
 
 def _ends(pieces: Pieces, lattice: Wireframe) -> tuple[Floats, Floats]:
     """(p, 3) where pieces begin and end, mm."""
-    first, last = lattice.nodes[lattice.struts[pieces.owner]].swapaxes(0, 1)
-    along = last - first
-    return first + pieces.low[:, None] * along, first + pieces.high[:, None] * along
+    start, end = (lattice.nodes[lattice.struts[pieces.owner, side]] for side in (0, 1))
+    low, high = np.flatnonzero(pieces.low > 0.0), np.flatnonzero(pieces.high < 1.0)
+    cut_low, cut_high = (
+        start[some] + share[some, None] * (end[some] - start[some])
+        for some, share in ((low, pieces.low), (high, pieces.high))
+    )
+    start[low], end[high] = cut_low, cut_high
+    return start, end
 
 
 def _groups(pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh | None) -> Ints:
@@ -253,7 +265,7 @@ def _groups(pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh | None) -
     cut = np.stack([pieces.low > 0.0, pieces.high < 1.0], axis=1)
     ends[cut] = nodes + np.arange(int(cut.sum()))
     group = pieces_of(ends[:, 0], ends[:, 1], nodes + int(cut.sum()))[1][ends[:, 0]]
-    if len(np.unique(group)) == 1:
+    if (group == group[:1]).all():
         return np.zeros(count, np.int64)
     owner, low, high = pieces.owner, pieces.low, pieces.high
     if boundary is not None:
@@ -281,7 +293,13 @@ def _along(pieces: Pieces, lattice: Wireframe, boundary: TriangleMesh) -> Ints:
 
 def _meeting(pieces: Pieces, lattice: Wireframe, group: Ints) -> Ints:
     """(p,) groups, those joined whose pieces' material meets."""
-    start, end = _ends(pieces, lattice)
-    radius = lattice.radii[pieces.owner].max(axis=1)
-    pairs = find_touching(start, end, radius, group)[0]
+    # Nearly all are of one group: only those about the others can touch one of another.
+    asks = np.zeros(len(lattice.nodes), bool)
+    asks[lattice.struts[pieces.owner[group != np.bincount(group).argmax()]]] = True
+    reach = 2.0 * float(lattice.lengths().max()) + 3.0 * float(lattice.radii.max())
+    near = about(lattice.nodes, asks, reach)
+    rows = np.flatnonzero(near[lattice.struts[pieces.owner, 0]])
+    some = Pieces(pieces.owner[rows], pieces.low[rows], pieces.high[rows])
+    radius = lattice.radii[some.owner].max(axis=1)
+    pairs = rows[find_touching(*_ends(some, lattice), radius, group[rows])[0]]
     return pieces_of(group[pairs][:, 0], group[pairs][:, 1], int(group.max()) + 1)[1][group]

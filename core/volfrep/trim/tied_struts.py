@@ -193,7 +193,7 @@ def find_touching(
     # look for others near them.
     asks = group != np.bincount(group, length).argmax()
     reach = 3.0 * float(radius.max())
-    some = _within_bins(0.5 * (start + end), asks, float(length.max()) + reach)
+    some = np.flatnonzero(about(0.5 * (start + end), asks, float(length.max()) + reach))
     samples = np.ceil(length[some] / radius[some]).astype(np.int64) + 1
     row, place = spread(samples)
     share, strut = place / np.maximum(samples[row] - 1, 1), some[row]
@@ -210,8 +210,8 @@ def find_touching(
     return pairs[touch], places[touch], gap[touch]
 
 
-def _within_bins(points: Floats, asks: Bools, reach: float) -> Ints:
-    """Rows of (n, 3) points that may be as near as the reach, mm, to one that asks; and those."""
+def about(points: Floats, asks: Bools, reach: float) -> Bools:
+    """(n,) which of (n, 3) points may be as near as the reach, mm, to one that asks; and those."""
     low = points.min(axis=0)
     span = points.max(axis=0) - low
     size = max(reach, float(span.max()) / MOST_BINS, 1e-300)
@@ -223,7 +223,7 @@ def _within_bins(points: Floats, asks: Bools, reach: float) -> Ints:
     near = np.zeros(int(shape.prod()), bool)
     for step in np.ndindex(3, 3, 3):
         near[asked + np.ravel_multi_index(step, tuple(shape)) - middle] = True
-    return np.flatnonzero(near[flat])
+    return np.asarray(near[flat])
 
 
 def _nearest_places(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats]:

@@ -10,7 +10,9 @@ from volfrep.design.forecast import (
     Forecast,
     expected_triangles,
     forecast_block,
+    forecast_block_beams,
     forecast_fill,
+    forecast_fill_beams,
     narrow_gaps,
     share_deeper,
     skin_bends,
@@ -215,3 +217,18 @@ def test_cells_without_mirrors_are_told_to_take_longer_where_each_octant_is_anot
     assert told["Kagome"].seconds > 4.0 * told["Octet"].seconds, "14 CPU s and 1.4"
     assert unlike_octants(LIBRARY["Octet"], 8.0) == 1 / 8
     assert unlike_octants(LIBRARY["Laves"], 8.0) > 2.0
+
+
+def test_a_million_cells_as_beams_are_told_within_a_half():
+    """Taken: a block 11 CPU s, 0.76 GB and 40.5 MB; a ball with a skin 42 s, 1.58 GB, 45.7 MB."""
+    spec = LatticeSpec(cell="BCC", cell_size=1.0, strut_radius=0.1, shell=1.0)
+    block_told = forecast_block_beams(spec, (100, 100, 100))
+    assert block_told.struts == pytest.approx(11_060_300, rel=0.01), "(8 + 3) of each, and outside"
+    part_told = forecast_fill_beams(samples.sphere(62.0, 4), spec)
+    for told, taken in (
+        (block_told, (10.8, 0.76, 40.5)),
+        (part_told, (41.6, 1.58, 45.7)),
+    ):
+        for value, found in zip((told.seconds, told.memory_gb, told.file_mb), taken, strict=True):
+            assert agrees(value, found)
+    assert str(block_told).endswith("0.76 GB of memory, a 3MF file of 46 MB and 12 s")

@@ -38,6 +38,8 @@ Surface = TriangleMesh | TrimmedSurface
 
 #: Beams are written to this part of the thinnest radius.
 BEAM_STEP = 1e-4
+#: How hard beams are packed: harder (6) takes 2.5 times as long for 1 to 7 % less.
+BEAM_LEVEL = 4
 #: Written before the names of the clip's elements: the same names to a reader of XML namespaces,
 #: as one of the extension must be. Slicers that compare plain names do not see the clip then;
 #: PrusaSlicer would refuse a file with a mesh that is not to be printed.
@@ -155,7 +157,7 @@ def write_3mf_beams(
         parts = "".join(f'<component objectid="{part}"/>' for part in (skin, lattice))
         text = f"<components>{parts}</components>".encode()
         objects.append(_object(len(objects) + 1, "part", iter([text])))
-    _write(path, objects, len(objects), rows, monitor, figures, _EXTENSIONS)
+    _write(path, objects, len(objects), rows, monitor, figures, _EXTENSIONS, BEAM_LEVEL)
 
 
 def _rows(given: Numbered) -> int:
@@ -170,6 +172,7 @@ def _write(
     monitor: Monitor | None,
     figures: Mapping[str, str],
     extensions: str = "",
+    level: int = 6,
 ) -> None:
     """Write the package; `build` is the number of the object to print, `rows` for the progress."""
     title = "".join(letter for letter in Path(path).stem if letter.isprintable())
@@ -181,10 +184,14 @@ def _write(
         f"{_metadata(figures)}<resources>"
     ).encode()
     tail = f'</resources><build><item objectid="{build}"/></build></model>'.encode()
-    with replacing(path) as file, zipfile.ZipFile(file, "w") as package:
+    with (
+        replacing(path) as file,
+        zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=level) as package,
+    ):
         package.writestr(package_entry("[Content_Types].xml"), CONTENT_TYPES)
         package.writestr(package_entry("_rels/.rels"), RELATIONSHIPS)
-        with package.open(package_entry(MODEL), "w", force_zip64=True) as model:
+        # By its name alone it has the oldest date, too, and can be told how hard to pack.
+        with package.open(MODEL, "w", force_zip64=True) as model:
             for count, chunk in enumerate(chain([head], *objects, [tail])):
                 model.write(chunk)
                 if monitor is not None:
@@ -259,8 +266,8 @@ def _beam_lattice(lattice: Wireframe, clip: int | None) -> Iterator[bytes]:
     step = BEAM_STEP * float(lattice.radii.min())
     radii, balls = rounded(lattice.radii, step), rounded(lattice.joint_radii, step)
     radius, ball = _most_common(radii.ravel()), _most_common(balls)
-    ends = lattice.nodes[lattice.struts]
-    shortest = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).min())
+    struts = lattice.struts
+    shortest = float(lattice.lengths().min())
     clipping = "" if clip is None else f' clippingmode="inside" clippingmesh="{clip}"'
     yield (
         f'<b:beamlattice minlength="{shortest / 2:.3g}" radius="{radius:.9g}" cap="sphere" '
@@ -268,17 +275,19 @@ def _beam_lattice(lattice: Wireframe, clip: int | None) -> Iterator[bytes]:
     ).encode()
     cone = radii[:, 0] != radii[:, 1]
     usual = ~cone & (radii[:, 0] == radius)
-    plain = ~cone & ~usual
-    struts = lattice.struts
-    yield from lines('<b:beam v1="%d" v2="%d"/>', [struts[usual]])
-    yield from lines(
-        '<b:beam v1="%d" v2="%d" r1="%.9g"/>', [np.hstack([struts[plain], radii[plain, :1]])]
-    )
-    yield from lines(
-        '<b:beam v1="%d" v2="%d" r1="%.9g" r2="%.9g"/>', [np.hstack([struts[cone], radii[cone]])]
-    )
+    for template, chosen, columns in (
+        ("", usual, 0), (' r1="%.9g"', ~cone & ~usual, 1), (' r1="%.9g" r2="%.9g"', cone, 2),
+    ):  # fmt: skip
+        where = np.flatnonzero(chosen)
+        parts = (where[k : k + BLOCK_ROWS] for k in range(0, len(where), BLOCK_ROWS))
+        blocks = (
+            np.hstack([struts[some], radii[some, :columns]]) if columns else struts[some]
+            for some in parts
+        )
+        yield from lines(f'<b:beam v1="%d" v2="%d"{template}/>', blocks)
     yield b"</b:beams>"
-    special = np.unique(struts[balls[struts] != ball])
+    special = np.flatnonzero(balls != ball)
+    special = special[np.isin(special, struts)] if len(special) else special
     if len(special):
         yield b"<b2:balls>"
         rows = np.stack([special, balls[special]], axis=1)
@@ -288,5 +297,7 @@ def _beam_lattice(lattice: Wireframe, clip: int | None) -> Iterator[bytes]:
 
 
 def _most_common(values: Floats) -> float:
+    if values.min() == values.max():
+        return float(values[0])
     numbers, counts = np.unique(values, return_counts=True)
     return float(numbers[counts.argmax()])

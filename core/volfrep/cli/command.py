@@ -45,6 +45,7 @@ class Row:
         parameters: of which lattices it has parameters: "solid", "block", or none.
         also: parameters that it has though blocks have not.
         optional: whether the subject may be left out.
+        has_small_matrices: whether threads of linear algebra would only wait for each other.
     """
 
     module: str
@@ -53,6 +54,7 @@ class Row:
     parameters: str = ""
     also: tuple[str, ...] = ()
     optional: bool = False
+    has_small_matrices: bool = False
 
 
 _PART = ("part", "PART", "the closed solid, as for fill")
@@ -114,7 +116,7 @@ COMMANDS = {
     ),
     "size": Row(
         "size", "Fill a solid with a lattice whose struts are sized for its load cases.",
-        _PART, "solid",
+        _PART, "solid", has_small_matrices=True,
     ),
     "solve": Row(
         "solve",
@@ -124,7 +126,7 @@ COMMANDS = {
     "homogenise": Row(
         "homogenise",
         "Solve a filled part, of any number of cells, as a solid of its lattice's stiffness.",
-        _PART, "solid",
+        _PART, "solid", has_small_matrices=True,
     ),
     "orient": Row(
         "orient",
@@ -153,7 +155,7 @@ def run(arguments: Sequence[str]) -> int:
         options = make_parser(asked).parse_args(with_current_options(arguments))
         command: Command = options.command
         memory_limit.keep_within()
-        if asked == "size":
+        if COMMANDS[asked].has_small_matrices:
             one_for_matrices()
         with keeping_inputs():
             return command(options) or 0

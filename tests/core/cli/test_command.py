@@ -108,20 +108,21 @@ def test_what_a_start_does_not_load(code: str, unused: list[str], tmp_path: Path
     assert done.stdout.splitlines()[-1] == "[]", done.stdout
 
 
-def test_sizing_has_one_thread_for_matrices_where_nothing_says_how_many(
-    monkeypatch: pytest.MonkeyPatch,
+@pytest.mark.parametrize("command", ["size", "homogenise"])
+def test_small_matrices_have_one_thread_where_nothing_says_how_many(
+    monkeypatch: pytest.MonkeyPatch, command: str
 ) -> None:
     """Before numpy is loaded, which counts them then."""
     told = []
     for name in MATRIX_THREADS:
         monkeypatch.setenv(name, "0")  # so that it is as before in the end
         monkeypatch.delenv(name)
-    for command, given in (("fill", None), ("size", "3"), ("size", None)):
+    output = "made.vtu" if command == "homogenise" else "made.stl"
+    for asked, given in (("fill", None), (command, "3"), (command, None)):
         if given is not None:
             monkeypatch.setenv("OMP_NUM_THREADS", given)
-        more = ["--loads", "none.toml"] if command == "size" else []
-        code = cli.run([command, "no_such_part.stl", "-o", "made.stl", *more])
-        assert code == cli.EXIT_BAD_INPUT
+        made = ["-o", "made.stl"] if asked == "fill" else ["-o", output, "--loads", "none.toml"]
+        assert cli.run([asked, "no_such_part.stl", *made]) == cli.EXIT_BAD_INPUT
         told.append(os.environ.get("OPENBLAS_NUM_THREADS"))
         monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
     assert told == [None, None, "1"]

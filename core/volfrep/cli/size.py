@@ -56,7 +56,6 @@ def run_size(given: argparse.Namespace) -> int | None:
     from ..output.sources import FilledPart
     from ..output.writer import Settings, writer_of
     from ..reports.sizing_page import is_page, write_sizing_page
-    from ..reports.sizing_report import sizing_rows
     from ..util.cache import StageCache
     from ..util.files import write_json
 
@@ -120,7 +119,7 @@ def run_size(given: argparse.Namespace) -> int | None:
     print_warnings([*made.report["notes"], *kept])
     print_summary(report, options.output, printing, quiet=options.quiet, before=seconds)
     if not options.quiet:
-        print_rows(*sizing_rows(made.report), ("time of sizing", f"{seconds:.1f} s of it"))
+        print_rows(*made.rows(), ("time of sizing", f"{seconds:.1f} s of it"))
     return None if made.sized.holds else EXIT_NOT_HELD
 
 

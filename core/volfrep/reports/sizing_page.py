@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import html
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from ..loads.load_cases import LoadCases
@@ -13,7 +13,8 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..util.files import replacing
 from .load_drawing import load_drawing
 from .sizing_plot import sizing_plot
-from .sizing_report import sizing_rows
+from .sizing_results import CASE, case_table, result_tables, sizing_results
+from .tables import table_html
 
 #: Suffixes of pages; what else a report is written to is JSON.
 PAGES = (".html", ".htm")
@@ -23,17 +24,6 @@ NOT_LOOKED_AT = (
     "Stress inside joints and fillets, and in the 0.1 % of a skin where it peaks.",
     "Residual stress, distortion, roughness and pores of the process.",
 )
-#: Rows of `sizing_rows` that are told as they are.
-_TOLD = (
-    "struts", "as printed", "built", "skin", "skin governed by", "solid", "one skin", "radius list",
-    "removed", "governed by", "same mass", "same limits", "CalculiX",
-)  # fmt: skip
-#: A limit by its name.
-_LIMIT = {
-    "stress": "{:.4g} MPa", "skin stress": "{:.4g} MPa", "displacement": "{:.4g} mm",
-    "frequency": "{:.4g} Hz or more", "buckling": "at {:.4g} times the loads or more",
-    "frame buckling": "at {:.4g} times the loads or more",
-}  # fmt: skip
 _STYLE = """
 body{font:10.5pt/1.4 sans-serif;color:#111;max-width:190mm;margin:8mm auto;padding:0 4mm}
 h1{font-size:16pt;margin:0}h2{font-size:11.5pt;margin:5mm 0 1mm;border-bottom:1px solid #999}
@@ -91,13 +81,15 @@ def sizing_page(report: Mapping[str, Any], solid: TriangleMesh, loads: LoadCases
         verdict += (
             ", confirmed by CalculiX" if proof["confirmed"] else ", NOT CONFIRMED by CalculiX"
         )
-    material = report["material"]
+    results = sizing_results(report)
+    tables = result_tables(one for one in results if one.subject != CASE)
     parts = [
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
         f"<title>{_text(name)}: sized for loads</title><style>{_STYLE}</style></head><body>",
         f"<h1>{_text(name)}: sized for loads</h1>",
         f'<p class="verdict">{_text(verdict[0].upper() + verdict[1:])}</p>',
-        f"<p>{_text(_material(material))} Units: mm, N, MPa. VOLFREP {_text(__version__)}.</p>",
+        f"<p>{_text(_material(report['material']))} Units: mm, N, MPa. VOLFREP "
+        f"{_text(__version__)}.</p>",
         "<h2>Loads</h2>",
         "<p>Blue is held, orange is loaded.</p>",
         '<div class="cases">',
@@ -107,13 +99,11 @@ def sizing_page(report: Mapping[str, Any], solid: TriangleMesh, loads: LoadCases
             for case in loads.cases
         ),
         "</div>",
-        *_limits(report),
-        "<h2>Mass</h2>",
-        _table((), _masses(report["masses_g"])),
-        "<h2>Load cases</h2>",
-        *_cases(report),
-        "<h2>Design</h2>",
-        _table((), [row for row in sizing_rows(report) if row[0] in _TOLD]),
+        *(
+            text
+            for table in (*tables, case_table(results))
+            for text in (f"<h2>{_text(table.title)}</h2>", table_html(table))
+        ),
         "<h2>Search</h2>",
         sizing_plot(report),
         "<h2>What was not looked at, and what to look at</h2>",
@@ -131,70 +121,6 @@ def _material(material: Mapping[str, Any]) -> str:
         f"{material['name']}: E {material['young']:g} MPa, Poisson's ratio "
         f"{material['poisson']:g}, {material['density']:g} g/cm3{told}."
     )
-
-
-def _limits(report: Mapping[str, Any]) -> list[str]:
-    """Every limit, its value, and what of it both solutions use; nothing without limits."""
-    if not report["uses"]:
-        return []
-    there = (report["calculix"] or {}).get("uses", {})
-    rows = [
-        (
-            name,
-            _LIMIT[name].format(report["limits"][name]),
-            f"{use:.1%}",
-            f"{there[name]:.1%}" if name in there else "-",
-        )
-        for name, use in report["uses"].items()
-    ]
-    return ["<h2>Limits</h2>", _table(("", "limit", "used", "used in CalculiX"), rows)]
-
-
-def _masses(split: Mapping[str, float]) -> list[tuple[str, str]]:
-    """What of the part weighs what."""
-    whole = split["struts"] + split["skin"]
-    rows = [("struts", split["struts"]), ("skin", split["skin"])]
-    if split["solid"]:
-        rows.append(("of the skin solid from side to side", split["solid"]))
-    return [
-        (name, f"{mass:.4g} g ({mass / max(whole, 1e-300):.0%})")
-        for name, mass in (*rows, ("whole", whole))
-    ]
-
-
-def _cases(report: Mapping[str, Any]) -> list[str]:
-    """Displacement and stress of every case, in all solutions that there are."""
-    proof, file = report["calculix"] or {}, report.get("file")
-    header = ["", "displacement, mm"]
-    if proof:
-        header.append("in CalculiX")
-    if file:
-        header.append("in the file's voxels")
-    header.append("stress of struts, MPa")
-    skin, there = report.get("skin_stress_mpa"), proof.get("skin_stress_mpa")
-    if skin:
-        header.append("of the skin")
-    if there:
-        header.append("of the skin in CalculiX")
-    rows = []
-    for k, case in enumerate(report["cases"]):
-        row = [case["name"], f"{case['displacement_mm']:.4g}"]
-        if proof:
-            row.append(f"{proof['largest_displacement'][k] * case['displacement_mm']:.4g}")
-        if file:
-            solved = file["cases"][k]["file"]["extrapolated"]["displacement_mm"]
-            row.append(f"{solved:.4g}")
-        row.append(f"{case['stress_mpa']:.4g}")
-        row += [f"{values[k]:.4g}" for values in (skin, there) if values]
-        rows.append(tuple(row))
-    return [_table(tuple(header), rows)]
-
-
-def _table(header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    head = "".join(f"<th>{_text(name)}</th>" for name in header)
-    lines = ["<table>", f"<tr>{head}</tr>" if head else ""]
-    lines += ["<tr>" + "".join(f"<td>{_text(cell)}</td>" for cell in row) + "</tr>" for row in rows]
-    return "\n".join([*lines, "</table>"])
 
 
 def _text(text: str) -> str:

@@ -10,10 +10,9 @@ import FreeCAD as App
 from freecad_volfrep.engine import require_engine
 from freecad_volfrep.features.infill.freshness import tell_stale
 from freecad_volfrep.features.jobs.progress import job_title, run_job
+from volfrep.reports.tables import Table
 from volfrep.util.errors import VolfrepError
 from volfrep.util.numbers import place_text, plural
-
-from .tables import Table
 
 if TYPE_CHECKING:
     import numpy as np

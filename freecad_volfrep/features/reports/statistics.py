@@ -14,9 +14,8 @@ from freecad_volfrep.features.infill.lattice_infill import is_infill
 from freecad_volfrep.features.infill.materials import material_of
 from freecad_volfrep.features.jobs.progress import job_title, run_job
 from freecad_volfrep.features.properties.quantities import density_of, mass_of
+from volfrep.reports.tables import Table
 from volfrep.util.errors import VolfrepError
-
-from .tables import Table
 
 #: Name, and where it stands in the object or in its report.
 _INPUTS: tuple[tuple[str, Callable[[Any], Any]], ...] = (

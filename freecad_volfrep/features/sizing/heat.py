@@ -11,8 +11,8 @@ import FreeCAD as App
 
 from freecad_volfrep.features.infill.materials import material_of
 from freecad_volfrep.features.jobs.progress import job_title, run_job
-from freecad_volfrep.features.reports.tables import Table
 from freecad_volfrep.translation import figure, translate
+from volfrep.reports.tables import Table
 from volfrep.util.errors import VolfrepError
 
 if TYPE_CHECKING:

@@ -9,16 +9,14 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
-import numpy as np
-from numpy.typing import NDArray
 
 from freecad_volfrep.features.infill.materials import material_of, process_of
 from freecad_volfrep.features.infill.sized_radii import store_radii, store_skin
 from freecad_volfrep.features.jobs.progress import job_title, run_job
-from freecad_volfrep.features.reports.tables import Table
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, spoken, translate
 from volfrep.design.parameters.specification import spec_value
 from volfrep.design.parameters.table import BY_NAME
+from volfrep.reports.tables import Table
 from volfrep.util.errors import VolfrepError
 
 from .heat import heat_loads
@@ -131,7 +129,7 @@ class Outcome:
 
     def _built(self) -> list[str]:
         """What its process asked for, in sentences; none where it was not sized for one."""
-        from volfrep.reports.sizing_report import along_text
+        from volfrep.reports.sizing_results import along_text
 
         built = self.part.report.get("building")
         if built is None:
@@ -228,62 +226,9 @@ class Outcome:
 
     def tables(self) -> list[Table]:
         """Before and after, case by case, and the steps: English, as saved tables are."""
-        sized, before, even = self.part.sized.analysis, self.part.before, self.part.even
-        columns = [("sized", sized), ("one radius, same mass", before)]
-        if even is not None:
-            name = "one radius, same limits" if even[1] else "one radius, as near as it gets"
-            columns.append((name, even[0]))
-        rows: list[tuple[Any, ...]] = [
-            ("mass of the struts, g", *(_mass(a.volume, self.density) for _, a in columns)),
-            ("smallest radius, mm", *(float(a.radii.min()) for _, a in columns)),
-            ("largest radius, mm", *(float(a.radii.max()) for _, a in columns)),
-        ]
-        rows += [
-            (f"{name}, % of its limit", *(100.0 * a.uses[name] for _, a in columns))
-            for name in sized.uses
-        ]
-        tables = [Table("Struts", tuple(rows), ("", *(name for name, _ in columns)))]
-        printed = self.part.report.get("as_printed")
-        if printed is not None:
-            tables.append(Table("As printed, of which all figures are", _printed_rows(printed)))
-        built = self.part.report.get("building")
-        if built is not None:
-            tables.append(Table("For printing", tuple(_built_rows(built))))
-        split = self.part.report["masses_g"]
-        if split["skin"]:
-            tables.append(Table("Mass", tuple(_split_rows(split))))
-        if "skin" in self.part.report:
-            tables.append(Table("Skin", tuple(_skin_rows(self.part.report))))
-        for k, state in enumerate(self.states):
-            rows = [
-                ("work of the loads, N mm", *(float(a.compliance[k]) for _, a in columns)),
-                ("largest displacement, mm", *(float(a.largest[k]) for _, a in columns)),
-                ("largest stress, MPa", *(float(a.stress[..., k].max()) for _, a in columns)),
-                ("buckling safety", *(_margin(a.buckling[:, k]) for _, a in columns)),
-            ]
-            if np.isfinite(sized.factors[k]):
-                together = (a.factors[k] for _, a in columns)
-                factors = (float(one) if np.isfinite(one) else "-" for one in together)
-                rows.append(("load before struts buckle together, times", *factors))
-            worst = int(np.argmax(state.stress.max(axis=1)))
-            place = "{:.4g}, {:.4g}, {:.4g}".format(*state.ends[worst].mean(axis=0))
-            rows.append(("most stressed strut, at x, y, z", place))
-            tables.append(Table(f"Results of {state.name}", tuple(rows), tables[0].header))
-        proof = self.part.report["calculix"]
-        if proof is not None:
-            off = 100.0 * max(proof["displacements_off"])
-            figures: list[tuple[Any, ...]] = [
-                ("confirmed", "yes" if proof["confirmed"] else "no"),
-                ("displacements differ by, %", off),
-            ]
-            if proof["worst_strut_compared"]:
-                figures.append(("largest stress, CalculiX / VOLFREP", proof["largest_stress"]))
-            if "lowest_frequency" in proof:
-                figures.append(("lowest frequency, CalculiX / VOLFREP", proof["lowest_frequency"]))
-            known = [factor for factor in proof.get("buckling_factors", ()) if factor is not None]
-            if known:
-                figures.append(("lowest load before they buckle together, times", min(known)))
-            tables.append(Table("The same beams in CalculiX", tuple(figures)))
+        from volfrep.reports.sizing_results import result_tables, sizing_results
+
+        tables = result_tables(sizing_results(self.part.report))
         notes = tuple((note,) for note in self.part.report["notes"])
         if notes:
             tables.append(Table("Notes", notes))
@@ -301,71 +246,8 @@ class Outcome:
         return json.dumps(self.part.report)
 
 
-def _split_rows(split: Mapping[str, float]) -> list[tuple[Any, ...]]:
-    """What of the part weighs what."""
-    rows: list[tuple[Any, ...]] = [
-        ("mass of the struts, g", split["struts"]),
-        ("mass of the skin, g", split["skin"]),
-    ]
-    if split["solid"]:
-        rows.append(("of that solid, g", split["solid"]))
-    return [*rows, ("mass, g", split["struts"] + split["skin"])]
-
-
-def _skin_rows(report: Mapping[str, Any]) -> list[tuple[Any, ...]]:
-    """A skin that was sized: how thick it is, and how much it is stressed."""
-    skin = report["skin"]
-    low, high = skin["thickness_mm"]
-    rows: list[tuple[Any, ...]] = [
-        ("smallest thickness, mm", low),
-        ("mean thickness, mm", skin["mean_thickness_mm"]),
-        ("largest thickness, mm", high),
-        ("largest stress, MPa", max(report["skin_stress_mpa"])),
-    ]
-    if "skin stress" in report["uses"]:
-        rows.append(("skin stress, % of its limit", 100.0 * report["uses"]["skin stress"]))
-    held = skin["there_over_asked"]
-    rows.append(("thickness there, % of what was asked", f"{held['5%']:.1%} - {held['95%']:.1%}"))
-    return rows
-
-
 def _mass(volume: float, density: float) -> float:
     return volume * density / 1000.0
-
-
-def _printed_rows(printed: Mapping[str, Any]) -> tuple[tuple[Any, ...], ...]:
-    """What comes out and what is drawn, of the report of a sizing."""
-    return (
-        ("table of diameters", printed["table"]),
-        ("standard deviations thinner, for stress and buckling", printed["scatters"]),
-        ("thinnest and thickest strut as printed, mm", *printed["diameters_mm"]),
-        ("thinnest and thickest strut as drawn, mm", *printed["drawn_diameters_mm"]),
-        ("mass of the struts as drawn, g", printed["drawn_strut_mass_g"]),
-    )
-
-
-def _built_rows(built: Mapping[str, Any]) -> list[tuple[Any, ...]]:
-    """By which process, along which direction, and what of the part is less steep than it asks."""
-    from volfrep.reports.sizing_report import along_text
-
-    rows: list[tuple[Any, ...]] = [
-        ("process", built["process"]),
-        ("build direction", along_text(built["build_direction"])),
-    ]
-    if built["inclination_degrees"]:
-        rows += [
-            ("builds without support from, degrees", built["inclination_degrees"]),
-            ("flatter struts removed", built["removed"]),
-            ("flatter parts of the outside, mm2", built["outside"]["area_mm2"]),
-        ]
-        if "ceilings" in built:
-            rows.append(("flatter ceilings within the skin, mm2", built["ceilings"]["area_mm2"]))
-    return rows
-
-
-def _margin(shares: NDArray[np.float64]) -> float:
-    """How many times the load may be until struts buckle, one alone or together."""
-    return float(1.0 / max(float(shares.max(initial=0.0)), 1e-12))
 
 
 def analyses_of(obj: App.DocumentObject) -> list[App.DocumentObject]:
@@ -619,7 +501,7 @@ def building_of(obj: App.DocumentObject) -> Building:
 
 def building_in_words(building: Building) -> str:
     """By which process, along which direction, and what it asks of struts and skin."""
-    from volfrep.reports.sizing_report import along_text
+    from volfrep.reports.sizing_results import along_text
 
     process = building.process
     said = translate(

@@ -9,13 +9,13 @@ from pathlib import Path
 import FreeCADGui as Gui
 
 from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
-from freecad_volfrep.features.reports.tables import Table, as_csv, as_html
 from freecad_volfrep.gui.messages import errors_shown, file_name, tell, tell_written
 from freecad_volfrep.gui.qt import QtCore, QtWidgets
 from freecad_volfrep.gui.widgets.controls import push_button
 from freecad_volfrep.sentences import localise_cell
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, marked, translate
 from volfrep.reports.sizing_page import is_page
+from volfrep.reports.tables import Table, as_csv, as_html
 from volfrep.util.files import replacing
 
 #: Of the window, px.
@@ -54,10 +54,14 @@ WORDS = marked(
     "buckling, % of its limit", "frequency, % of its limit", "work of the loads, N mm",
     "largest displacement, mm", "largest stress, MPa", "buckling safety",
     "frame buckling, % of its limit", "load before struts buckle together, times",
-    "lowest load before they buckle together, times",
     "most stressed strut, at x, y, z", "The same beams in CalculiX", "confirmed",
     "displacements differ by, %",
     "largest stress, CalculiX / VOLFREP", "lowest frequency, CalculiX / VOLFREP",
+    "Limits", "limit", "governed by", "radius list", "radius, mm", "one radius, one skin",
+    "with the struts removed", "same mass, times as stiff as one radius",
+    "beams say the most, solids may say the least", "largest stress of the skin, MPa",
+    "on all but 0.1% of its area", "on 90% of its area", "not compared in CalculiX",
+    "with the skin", "it has not solved this design", "does not hold the limits",
     "For printing", "build direction", "builds without support from, degrees",
     "flatter struts removed", "flatter parts of the outside, mm2",
     "flatter ceilings within the skin, mm2",

@@ -3388,6 +3388,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Gitter</translation>
     </message>
     <message>
+      <source>Limits</source>
+      <translation>Grenzen</translation>
+    </message>
+    <message>
       <source>Mass</source>
       <translation>Masse</translation>
     </message>
@@ -3488,6 +3492,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>wie eine Datei es hält</translation>
     </message>
     <message>
+      <source>beams say the most, solids may say the least</source>
+      <translation>Balken nennen das Größte, Volumenelemente womöglich das Kleinste</translation>
+    </message>
+    <message>
       <source>bodies</source>
       <translation>Körper</translation>
     </message>
@@ -3568,6 +3576,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Verschiebungen weichen ab um, %</translation>
     </message>
     <message>
+      <source>does not hold the limits</source>
+      <translation>hält die Grenzen nicht ein</translation>
+    </message>
+    <message>
       <source>every place inside is enclosed once</source>
       <translation>jede Stelle im Inneren ist einmal umschlossen</translation>
     </message>
@@ -3608,8 +3620,16 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Geschlecht</translation>
     </message>
     <message>
+      <source>governed by</source>
+      <translation>maßgebend</translation>
+    </message>
+    <message>
       <source>invalid points</source>
       <translation>ungültige Punkte</translation>
+    </message>
+    <message>
+      <source>it has not solved this design</source>
+      <translation>es hat diesen Entwurf nicht gerechnet</translation>
     </message>
     <message>
       <source>joints</source>
@@ -3622,6 +3642,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>largest radius, mm</source>
       <translation>größter Radius, mm</translation>
+    </message>
+    <message>
+      <source>largest stress of the skin, MPa</source>
+      <translation>größte Spannung der Haut, MPa</translation>
     </message>
     <message>
       <source>largest stress, CalculiX / VOLFREP</source>
@@ -3644,6 +3668,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>kleinste Festigkeit entlang x, y, z</translation>
     </message>
     <message>
+      <source>limit</source>
+      <translation>Grenze</translation>
+    </message>
+    <message>
       <source>load before struts buckle together, times</source>
       <translation>Last, bis Streben gemeinsam knicken, Vielfaches</translation>
     </message>
@@ -3654,10 +3682,6 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>lowest frequency, CalculiX / VOLFREP</source>
       <translation>niedrigste Frequenz, CalculiX / VOLFREP</translation>
-    </message>
-    <message>
-      <source>lowest load before they buckle together, times</source>
-      <translation>kleinste Last, bis sie gemeinsam knicken, Vielfaches</translation>
     </message>
     <message>
       <source>manifold</source>
@@ -3708,12 +3732,28 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>keine</translation>
     </message>
     <message>
+      <source>not compared in CalculiX</source>
+      <translation>in CalculiX nicht verglichen</translation>
+    </message>
+    <message>
       <source>of that solid, g</source>
       <translation>davon massiv, g</translation>
     </message>
     <message>
+      <source>on 90% of its area</source>
+      <translation>auf 90% ihrer Fläche</translation>
+    </message>
+    <message>
+      <source>on all but 0.1% of its area</source>
+      <translation>auf allem außer 0,1% ihrer Fläche</translation>
+    </message>
+    <message>
       <source>one radius, as near as it gets</source>
       <translation>ein Radius, so nah es geht</translation>
+    </message>
+    <message>
+      <source>one radius, one skin</source>
+      <translation>ein Radius, eine Haut</translation>
     </message>
     <message>
       <source>one radius, same limits</source>
@@ -3728,12 +3768,24 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Ausgabe</translation>
     </message>
     <message>
+      <source>radius list</source>
+      <translation>Liste der Radien</translation>
+    </message>
+    <message>
+      <source>radius, mm</source>
+      <translation>Radius, mm</translation>
+    </message>
+    <message>
       <source>relative density</source>
       <translation>relative Dichte</translation>
     </message>
     <message>
       <source>relative density, %</source>
       <translation>relative Dichte, %</translation>
+    </message>
+    <message>
+      <source>same mass, times as stiff as one radius</source>
+      <translation>gleiche Masse, so viele Male so steif wie ein Radius</translation>
     </message>
     <message>
       <source>shear modulus</source>
@@ -3886,6 +3938,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>watertight</source>
       <translation>wasserdicht</translation>
+    </message>
+    <message>
+      <source>with the skin</source>
+      <translation>mit der Haut</translation>
+    </message>
+    <message>
+      <source>with the struts removed</source>
+      <translation>mit den entfernten Streben</translation>
     </message>
     <message>
       <source>work of the loads, N mm</source>

@@ -3388,6 +3388,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Reticolo</translation>
     </message>
     <message>
+      <source>Limits</source>
+      <translation>Limiti</translation>
+    </message>
+    <message>
       <source>Mass</source>
       <translation>Massa</translation>
     </message>
@@ -3488,6 +3492,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>come la conserva un file</translation>
     </message>
     <message>
+      <source>beams say the most, solids may say the least</source>
+      <translation>le travi dicono il massimo, i solidi forse il minimo</translation>
+    </message>
+    <message>
       <source>bodies</source>
       <translation>corpi</translation>
     </message>
@@ -3568,6 +3576,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>gli spostamenti differiscono del, %</translation>
     </message>
     <message>
+      <source>does not hold the limits</source>
+      <translation>non rispetta i limiti</translation>
+    </message>
+    <message>
       <source>every place inside is enclosed once</source>
       <translation>ogni punto interno è racchiuso una volta</translation>
     </message>
@@ -3608,8 +3620,16 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>genere</translation>
     </message>
     <message>
+      <source>governed by</source>
+      <translation>limite determinante</translation>
+    </message>
+    <message>
       <source>invalid points</source>
       <translation>punti non validi</translation>
+    </message>
+    <message>
+      <source>it has not solved this design</source>
+      <translation>non ha risolto questo progetto</translation>
     </message>
     <message>
       <source>joints</source>
@@ -3622,6 +3642,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>largest radius, mm</source>
       <translation>raggio massimo, mm</translation>
+    </message>
+    <message>
+      <source>largest stress of the skin, MPa</source>
+      <translation>tensione massima del guscio, MPa</translation>
     </message>
     <message>
       <source>largest stress, CalculiX / VOLFREP</source>
@@ -3644,6 +3668,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>resistenza minima lungo x, y, z</translation>
     </message>
     <message>
+      <source>limit</source>
+      <translation>limite</translation>
+    </message>
+    <message>
       <source>load before struts buckle together, times</source>
       <translation>carico prima dell'instabilità d'insieme, volte</translation>
     </message>
@@ -3654,10 +3682,6 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>lowest frequency, CalculiX / VOLFREP</source>
       <translation>frequenza minima, CalculiX / VOLFREP</translation>
-    </message>
-    <message>
-      <source>lowest load before they buckle together, times</source>
-      <translation>minimo carico prima dell'instabilità d'insieme, volte</translation>
     </message>
     <message>
       <source>manifold</source>
@@ -3708,12 +3732,28 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>nessuno</translation>
     </message>
     <message>
+      <source>not compared in CalculiX</source>
+      <translation>non confrontato in CalculiX</translation>
+    </message>
+    <message>
       <source>of that solid, g</source>
       <translation>di cui pieno, g</translation>
     </message>
     <message>
+      <source>on 90% of its area</source>
+      <translation>sul 90% della sua area</translation>
+    </message>
+    <message>
+      <source>on all but 0.1% of its area</source>
+      <translation>su tutta l'area tranne lo 0,1%</translation>
+    </message>
+    <message>
       <source>one radius, as near as it gets</source>
       <translation>raggio unico, il più vicino possibile</translation>
+    </message>
+    <message>
+      <source>one radius, one skin</source>
+      <translation>raggio unico, guscio unico</translation>
     </message>
     <message>
       <source>one radius, same limits</source>
@@ -3728,12 +3768,24 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>risultato</translation>
     </message>
     <message>
+      <source>radius list</source>
+      <translation>lista di raggi</translation>
+    </message>
+    <message>
+      <source>radius, mm</source>
+      <translation>raggio, mm</translation>
+    </message>
+    <message>
       <source>relative density</source>
       <translation>densità relativa</translation>
     </message>
     <message>
       <source>relative density, %</source>
       <translation>densità relativa, %</translation>
+    </message>
+    <message>
+      <source>same mass, times as stiff as one radius</source>
+      <translation>stessa massa, volte più rigido di un raggio unico</translation>
     </message>
     <message>
       <source>shear modulus</source>
@@ -3886,6 +3938,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>watertight</source>
       <translation>stagno</translation>
+    </message>
+    <message>
+      <source>with the skin</source>
+      <translation>con il guscio</translation>
+    </message>
+    <message>
+      <source>with the struts removed</source>
+      <translation>con le aste rimosse</translation>
     </message>
     <message>
       <source>work of the loads, N mm</source>

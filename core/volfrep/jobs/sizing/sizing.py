@@ -15,6 +15,7 @@ from ...design.spec import LatticeSpec
 from ...loads.load_cases import LoadCases, refuse_heat, with_weights
 from ...mesh.triangle_mesh import TriangleMesh
 from ...reports.sizing_report import sizing_report
+from ...reports.sizing_results import sizing_results
 from ...sizing.analysis import Analysis, Limits, Problem, analyse
 from ...sizing.discrete_radii import list_figures, of_list
 from ...sizing.model import SizingModel
@@ -120,9 +121,7 @@ class SizedPart(Shown):
 
     def rows(self) -> list[tuple[str, str]]:
         """Names and values, for people."""
-        from ...reports.sizing_report import sizing_rows
-
-        return sizing_rows(self.report)
+        return [one.line for one in sizing_results(self.report)]
 
     @property
     def states(self) -> tuple[StrutState, ...]:

@@ -52,20 +52,22 @@ def as_html(tables: list[Table], said: Callable[[str], str] = str) -> str:
     """
     parts = ['<!DOCTYPE html><html><head><meta charset="utf-8"></head><body>']
     for table in tables:
-        parts.append(f"<h3>{html.escape(said(table.title))}</h3>")
-        lines = (table.header, *table.rows)
-        long = max(sum(len(shown(cell)) for cell in line) for line in lines) > LONG
-        parts.append(f'<table cellspacing="0" cellpadding="3"{WIDTH * long}>')
-        if table.header:
-            cells = "".join(
-                f'<th align="left">{html.escape(said(name))}</th>' for name in table.header
-            )
-            parts.append(f"<tr>{cells}</tr>")
-        for first, *others in table.rows:
-            cells = "".join(f"<td>{html.escape(said(shown(value)))}</td>" for value in others)
-            parts.append(f"<tr><td>{html.escape(said(str(first)))}&nbsp;&nbsp;</td>{cells}</tr>")
-        parts.append("</table>")
+        parts += [f"<h3>{html.escape(said(table.title))}</h3>", table_html(table, said)]
     return "\n".join([*parts, "</body></html>"])
+
+
+def table_html(table: Table, said: Callable[[str], str] = str) -> str:
+    """A table without its title, as `as_html` has it."""
+    lines = (table.header, *table.rows)
+    long = max(sum(len(shown(cell)) for cell in line) for line in lines) > LONG
+    parts = [f'<table cellspacing="0" cellpadding="3"{WIDTH * long}>']
+    if table.header:
+        cells = "".join(f'<th align="left">{html.escape(said(name))}</th>' for name in table.header)
+        parts.append(f"<tr>{cells}</tr>")
+    for first, *others in table.rows:
+        cells = "".join(f"<td>{html.escape(said(shown(value)))}</td>" for value in others)
+        parts.append(f"<tr><td>{html.escape(said(str(first)))}&nbsp;&nbsp;</td>{cells}</tr>")
+    return "\n".join([*parts, "</table>"])
 
 
 def as_csv(tables: list[Table]) -> str:

@@ -15,8 +15,8 @@ from freecad_volfrep import make_lattice_infill
 from freecad_volfrep.features.properties.quantities import mass_of, set_value
 from freecad_volfrep.features.reports.mesh_check import check_mesh
 from freecad_volfrep.features.reports.statistics import infills_of, statistics
-from freecad_volfrep.features.reports.tables import Table, as_csv, as_html
 from freecad_volfrep.translation import TRANSLATIONS
+from volfrep.reports.tables import Table, as_csv, as_html
 from volfrep.util.errors import VolfrepError
 
 
@@ -72,9 +72,9 @@ def test_statistics_tell_what_walls_do(doc, infill, monkeypatch):
     """On coarse grids: how fine they are is the engine's matter."""
     asked = []
 
-    def coarse(title, call):
-        asked.append(call.arguments)
-        return call.function(*call.arguments, **call.keywords, along=16)
+    def coarse(title, job, *arguments, has_progress, **keywords):
+        asked.append(keywords)
+        return job(*arguments, **keywords, along=16)
 
     monkeypatch.setattr("freecad_volfrep.features.reports.statistics.run_job", coarse)
     infill.CellType = "Gyroid"

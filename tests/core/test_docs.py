@@ -98,7 +98,7 @@ def calls_of_examples() -> list[tuple[str, str, set[str]]]:
 
 def test_every_keyword_of_an_example_exists() -> None:
     calls = calls_of_examples()
-    assert ("tpms.md", "fill", {"cell", "cell_size", "wall_thickness", "shell"}) in calls
+    assert ("engine.md", "fill", {"cell", "cell_size", "strut_radius", "shell"}) in calls
     for page, name, keywords in calls:
         function = attrgetter(name)(volfrep)
         own = set(inspect.signature(function).parameters)

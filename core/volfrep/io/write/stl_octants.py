@@ -176,19 +176,20 @@ def _copies(layout: Layout, motion: Motion) -> Iterator[Copies]:
             continue
         steps = in_steps(grid, octant)
         normals = _normals(octant.vertices[octant.triangles])
-        corner, sign = layout.frames(place)
-        # Octants of one frame together: their facets are the same but for where they lie.
-        for frame in np.unique(sign, axis=0):
-            of = (sign == frame).all(axis=1)
-            own, at = corner[of], place[of]
+        # Octants of one frame together, which parity tells: their facets are the same but for where
+        # they lie.
+        parity = 4 * (place[:, 0] & 1) + 2 * (place[:, 1] & 1) + (place[:, 2] & 1)
+        for one in np.flatnonzero(np.bincount(parity)):
+            at = place[parity == one]
+            frame = layout.frames(at[:1])[1][0]
             order = octant.triangles if frame.prod() > 0 else octant.triangles[:, ::-1]
             directions = motion.turned(frame * normals).astype(np.float32)
             pattern = _Pattern(frame * steps, motion, order.ravel(), directions)
             size = max(1, BLOCK_FACETS // len(order))
-            for begin in range(0, len(own), size):
-                part = slice(begin, begin + size)
-                some = partial(_facets, where, own[part], pattern)
-                yield Copies(at[part], len(order), some, goes=True)
+            for begin in range(0, len(at), size):
+                part = at[begin : begin + size]
+                some = partial(_facets, where, layout.frames(part)[0], pattern)
+                yield Copies(part, len(order), some, goes=True)
 
 
 def _copy_deformed(

@@ -4,6 +4,7 @@
 Run it with tools/run_gui.sh.
 """
 
+import re
 import time
 
 import FreeCAD as App
@@ -29,6 +30,7 @@ from driving import (
     picture,
     press_button,
     run_checks,
+    seen,
     select,
     settle,
     shades,
@@ -409,9 +411,19 @@ def show_results(doc, obj):
     figures["shades of results"] = drawn
     check("every quantity is drawn", min(drawn.values()) > 150, drawn)
     click(dock().findChild(QtGui.QCheckBox, "Deformed"))
-    factor = dock().findChild(QtGui.QLabel, "Factor").text()
-    check("deformed says how much", factor.endswith("times enlarged"), factor)
+    factor = dock().findChild(QtGui.QDoubleSpinBox, "Factor")
+    said = factor.text()
+    check("deformed says how much", re.fullmatch("automatic: \\d+ \u00d7", said), said)
     picture("results_deformed")
+    click(factor)
+    xdotool("key", "ctrl+a")
+    xdotool("type", "1")
+    xdotool("key", "Tab")
+    settle()
+    check("another factor can be typed", factor.value() == 1.0, factor.text())
+    picture("results_deformed_once")
+    once, fits = (seen(f"results_deformed{name}", view_3d()) for name in ("_once", ""))
+    check("and is drawn", (once != fits).any(axis=2).mean() > 0.01)
     high = dock().findChild(QtGui.QDoubleSpinBox, "To")
     most = high.value()
     click(high)

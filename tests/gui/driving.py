@@ -11,10 +11,8 @@ fails the check that is running.
 import faulthandler
 import json
 import os
-import re
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import traceback
@@ -77,34 +75,49 @@ def wait(milliseconds):
 class Standstills:
     """Times for which Qt's loop stood still, and what Python was at then, until they are `told`.
 
-    A thread of the interpreter's own, which waits for nobody, writes down where Python is whenever
-    the loop's next turn does not come.
+    A thread looks where the main one is whenever the loop's next turn does not come. It takes its
+    turn with Python as all threads do: faulthandler's, which takes none, reads calls while they
+    change, and FreeCAD may die of it. A call that lets no other thread in is seen at its end.
     """
 
     #: Not worth a word, s.
     LEAST = 0.1
     #: Between turns of the loop, ms.
     BEAT = 10
+    #: Calls that are told, the innermost first.
+    DEPTH = 8
 
     def __init__(self):
-        self._places = tempfile.TemporaryFile("w+")  # noqa: SIM115  as long as it looks
-        self._found = []
+        self._main = threading.get_ident()
+        self._places, self._found = [], []
         self._last = time.monotonic(), time.thread_time()
+        self._over = threading.Event()
         self._timer = QtCore.QTimer(Gui.getMainWindow())
         self._timer.timeout.connect(self._beat)
         self._timer.start(self.BEAT)
+        threading.Thread(target=self._look, name="standstills", daemon=True).start()
 
     def _beat(self):
-        faulthandler.cancel_dump_traceback_later()
         now = time.monotonic(), time.thread_time()
         wall, processor = (b - a for a, b in zip(self._last, now, strict=True))
+        places, self._places = self._places, []
         self._last = now
         if wall > self.LEAST:
-            self._places.seek(0)
-            self._found.append((wall, processor, _places(self._places.read())))
-        self._places.seek(0)
-        self._places.truncate()
-        faulthandler.dump_traceback_later(self.LEAST, repeat=True, file=self._places)
+            self._found.append((wall, processor, places))
+
+    def _look(self):
+        while not self._over.wait(self.LEAST):
+            if time.monotonic() - self._last[0] > self.LEAST:
+                self._places.append(self._place())
+
+    def _place(self):
+        """Where the main thread is: file:line function, the innermost first."""
+        frame, calls = sys._current_frames()[self._main], []
+        while frame is not None and len(calls) < self.DEPTH:
+            code = frame.f_code
+            calls.append(f"{Path(code.co_filename).stem}:{frame.f_lineno} {code.co_name}")
+            frame = frame.f_back
+        return " < ".join(calls)
 
     def tell(self, what):
         """Print and note those since the last time, and what the main thread did in them.
@@ -125,19 +138,8 @@ class Standstills:
 
     def end(self):
         """Look no more."""
+        self._over.set()
         self._timer.stop()
-        faulthandler.cancel_dump_traceback_later()
-
-
-def _places(dumped):
-    """Where the main thread was each time, from what faulthandler wrote: file:line function."""
-    found = []
-    for dump in dumped.split("Timeout (")[1:]:
-        lines = dump.rpartition("Thread 0x")[2].splitlines()[1:]
-        calls = re.findall(r'File "(.*?)", line (\d+) in (\S+)', "\n".join(lines))
-        short = [f"{Path(file).stem}:{line} {name}" for file, line, name in calls]
-        found.append(" < ".join(short[:8]))
-    return found
 
 
 def comes_true(condition, seconds):

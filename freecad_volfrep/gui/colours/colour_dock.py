@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 FIRST = "Radius"
 #: What is made in background is looked for so often, ms.
 TICK = 150
+#: Displacements are enlarged by no more than this.
+MOST_ENLARGED = 1e6
 
 
 class MeshColours:
@@ -134,7 +136,7 @@ class ColourDock(ObjectDock):
             self._quantity.addItem(text, name)
         self._case.addItems(colours.cases)
         self._deformed = QtWidgets.QCheckBox(translate("VolfrepColours", "Deformed"))
-        self._factor, self._said = QtWidgets.QLabel(), QtWidgets.QLabel()
+        self._factor, self._said = self._factor_field(), QtWidgets.QLabel()
         self._range = ColourRange(self._set_range)
         for name, widget in (
             ("Quantity", self._quantity), ("Case", self._case), ("Deformed", self._deformed),
@@ -163,6 +165,21 @@ class ColourDock(ObjectDock):
         self._quantity.currentIndexChanged.connect(lambda _: self._choose())
         self._case.currentIndexChanged.connect(lambda _: self._show_case())
         self._deformed.toggled.connect(lambda _: self._show_case())
+        self._factor.valueChanged.connect(lambda _: self._show_case())
+
+    def _factor_field(self) -> Any:
+        """How many times displacements are enlarged; 0 is what fits."""
+        field = QtWidgets.QDoubleSpinBox()
+        field.setRange(0.0, MOST_ENLARGED)
+        field.setStepType(QtWidgets.QDoubleSpinBox.AdaptiveDecimalStepType)
+        field.setKeyboardTracking(False)
+        field.setSuffix(" \u00d7")
+        if isinstance(self._colours, StrutColours):
+            text = translate("VolfrepColours", "automatic: {factor:g} \u00d7")
+            field.setSpecialValueText(text.format(factor=self._colours.fitting_factor))
+        field.setToolTip(translate("VolfrepColours", "Displacements enlarged; 0: automatic"))
+        field.setEnabled(False)
+        return field
 
     def show_state(self) -> None:
         """Show what is coloured: it may be changed elsewhere."""
@@ -220,9 +237,10 @@ class ColourDock(ObjectDock):
 
     def _show_case(self) -> None:
         assert isinstance(self._colours, StrutColours)
-        factor = self._colours.show_case(self._case.currentIndex(), self._deformed.isChecked())
-        text = translate("VolfrepColours", "{factor:g} times enlarged")
-        self._factor.setText("" if factor is None else text.format(factor=factor))
+        is_deformed = self._deformed.isChecked()
+        self._factor.setEnabled(is_deformed)
+        factor = (self._factor.value() or None) if is_deformed else 0.0
+        self._colours.show_case(self._case.currentIndex(), factor)
 
     def _set_range(self, low: float, high: float) -> None:
         self._colours.set_range(low, high)

@@ -87,8 +87,10 @@ class StrutColours:
         self._scene = Gui.getDocument(obj.Document.Name).activeView().getSceneGraph()
         self._scene.addChild(self._root)
         self._ends: dict[str, tuple[float, float]] = {}
+        #: How many times displacements are enlarged so that they are seen.
+        self.fitting_factor = drawn_factor(self._states)
         self._shapes: list[Any] = []
-        self.show_case(0, False)
+        self.show_case(0, 0.0)
 
     @property
     def title(self) -> str:
@@ -119,14 +121,13 @@ class StrutColours:
             self._ends[self.quantity] = low, high
         self._draw()
 
-    def show_case(self, case: int, is_deformed: bool) -> float | None:
-        """Show a load case; returns how many times its displacements are enlarged, if they are."""
+    def show_case(self, case: int, factor: float | None) -> None:
+        """Show a load case, its displacements enlarged so many times; None for what fits."""
         self._state = self._states[case]
-        factor = drawn_factor(self._states) if is_deformed else None
-        self._places = self._state.ends + (factor or 0.0) * self._state.displacements
+        factor = self.fitting_factor if factor is None else factor
+        self._places = self._state.ends + factor * self._state.displacements
         self._nearest = NearestStrut(self._places)
         self._draw()
-        return factor
 
     def shapes(self) -> list[Any]:
         """What the mouse may point at."""

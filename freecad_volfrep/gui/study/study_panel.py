@@ -166,9 +166,11 @@ class StudyPanel:
         form.column.addLayout(line)
         self._plot = StudyPlot(self._pick)
         form.column.addWidget(self._plot, 1)
-        line = QtWidgets.QHBoxLayout()
-        self._across, self._up = (self._axis(line, name) for name in ("Across", "Up"))
-        form.column.addLayout(line)
+        lines = QtWidgets.QFormLayout()  # a line each: names of figures are long
+        self._across, self._up = (
+            self._axis(lines, *axis) for axis in (("x", "Across"), ("y", "Up"))
+        )
+        form.column.addLayout(lines)
         self._text = Message("Picked")
         form.column.addWidget(self._text)
         line = QtWidgets.QHBoxLayout()
@@ -210,13 +212,13 @@ class StudyPanel:
         parameter = self._known.get(name.currentData())
         _show_text(values, "" if parameter is None else values_about(self._obj.Infill, parameter))
 
-    def _axis(self, line: Any, name: str) -> Any:
+    def _axis(self, lines: Any, letter: str, name: str) -> Any:
         choice = QtWidgets.QComboBox()
         choice.setObjectName(name)
         choice.setSizeAdjustPolicy(QtWidgets.QComboBox.AdjustToMinimumContentsLengthWithIcon)
         choice.setMinimumContentsLength(7)
         choice.currentIndexChanged.connect(lambda _: self._show_plot())
-        line.addWidget(choice, 1)
+        lines.addRow(letter, choice)
         return choice
 
     def _lines(self) -> list[str]:

@@ -2018,6 +2018,10 @@
       <translation>Verschiebung, mm</translation>
     </message>
     <message>
+      <source>Displacements enlarged; 0: automatic</source>
+      <translation>Vergrößerung der Verschiebungen; 0: automatisch</translation>
+    </message>
+    <message>
       <source>Field</source>
       <translation>Feld</translation>
     </message>
@@ -2126,16 +2130,16 @@
       <translation>Im Dokument steht nicht, was maßgebend ist: Lasten und Auslegung legt es dort ab.</translation>
     </message>
     <message>
+      <source>automatic: {factor:g} ×</source>
+      <translation>automatisch: {factor:g} ×</translation>
+    </message>
+    <message>
       <source>from</source>
       <translation>von</translation>
     </message>
     <message>
       <source>to</source>
       <translation>bis</translation>
-    </message>
-    <message>
-      <source>{factor:g} times enlarged</source>
-      <translation>{factor:g}-fach vergrößert</translation>
     </message>
     <message>
       <source>{value} under the mouse</source>

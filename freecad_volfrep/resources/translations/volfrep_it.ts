@@ -2018,6 +2018,10 @@
       <translation>Spostamento, mm</translation>
     </message>
     <message>
+      <source>Displacements enlarged; 0: automatic</source>
+      <translation>Ingrandimento degli spostamenti; 0: automatico</translation>
+    </message>
+    <message>
       <source>Field</source>
       <translation>Campo</translation>
     </message>
@@ -2126,16 +2130,16 @@
       <translation>Nel documento non è indicato il limite determinante: Carichi e dimensionamento ve lo scrive.</translation>
     </message>
     <message>
+      <source>automatic: {factor:g} ×</source>
+      <translation>automatico: {factor:g} ×</translation>
+    </message>
+    <message>
       <source>from</source>
       <translation>da</translation>
     </message>
     <message>
       <source>to</source>
       <translation>a</translation>
-    </message>
-    <message>
-      <source>{factor:g} times enlarged</source>
-      <translation>ingrandito {factor:g} volte</translation>
     </message>
     <message>
       <source>{value} under the mouse</source>

@@ -27,7 +27,8 @@ from ..trim.kept_struts import KeptStruts, axes_of, find_kept_struts
 from ..trim.loose_pieces import Cleared
 from ..trim.prune import Pruned
 from ..trim.stage import drained_part
-from ..util.cache import StageCache
+from ..util.cache import Kept, StageCache
+from ..util.content import content_of
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor, ProgressCallback
 from ..util.types import Bools
@@ -230,12 +231,14 @@ class Infill:
     def _kept(self, *, is_cut: bool) -> KeptStruts:
         """Which pieces of the struts stay, where a wall cuts them or where they are whole."""
         if is_cut not in self._kept_struts:
-            boundary = self.cavity if is_cut else None
-            self._kept_struts[is_cut] = find_kept_struts(
-                self.struts, boundary, has_skin=self.spec.skin is not None,
-                bodies=max(1, inspect(self.solid).quality.bodies),
-                openings=self.domain.openings, keep_all=self.spec.keep_pieces,
-            )  # fmt: skip
+            struts, domain = self.struts, self.part_domain.kept_domain
+            frame = content_of(struts.nodes, struts.struts, struts.radii, struts.joint_radii)
+            self._kept_struts[is_cut] = self.part_domain.cache.run(
+                "cut struts" if is_cut else "whole struts", _kept_struts,
+                Kept(struts, frame), Kept(self.cavity, domain.key) if is_cut else None,
+                self.spec.skin is not None, max(1, inspect(self.solid).quality.bodies),
+                Kept(self.domain.openings, domain.key), self.spec.keep_pieces,
+            ).value  # fmt: skip
         return self._kept_struts[is_cut]
 
     def _reported(self, output: str, cleared: Cleared, drained: Drained | None = None) -> Result:
@@ -281,3 +284,17 @@ class Infill:
         if output != "domain":
             report = self.kind.with_target(report)
         return Result(surface, self.struts, report)
+
+
+def _kept_struts(
+    struts: Wireframe,
+    wall: TriangleMesh | None,
+    has_skin: bool,
+    bodies: int,
+    openings: TriangleMesh | None,
+    keep_all: bool,
+) -> KeptStruts:
+    """As `find_kept_struts`, as a stage."""
+    return find_kept_struts(
+        struts, wall, has_skin=has_skin, bodies=bodies, openings=openings, keep_all=keep_all
+    )

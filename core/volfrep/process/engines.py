@@ -13,10 +13,12 @@ from importlib import import_module
 from typing import Any
 
 from ..util.errors import Cancelled, VolfrepError
-from .worker import LAST_WORDS, Call, Ending, Program, Worker, WorkerLost
+from .worker import LAST_WORDS, Call, Ending, OnItsWay, Program, Worker, WorkerLost
 
 #: A call that is asked to end has so long for it, s; then its process is ended.
 GRACE = 0.05
+#: A call that another one waits for is looked at so often, s.
+TICK = 0.05
 
 
 class Engines:
@@ -70,12 +72,14 @@ class Engines:
             return None
 
     def give_back(self, process: Worker) -> None:
-        """A call is over: keep its process for the next one, unless one waits already."""
+        """A call is over: keep its process for the next one, in place of one that waits."""
         with self._choosing:
-            if process.is_alive and not self._idle:
-                self._idle.append(process)
-            else:
+            if not process.is_alive:
                 process.end()
+                return
+            while self._idle:
+                self._idle.pop().end()
+            self._idle.append(process)
 
 
 class Running:
@@ -138,7 +142,15 @@ class Running:
         self._call = Call(_load)  # let go of what it was given
         self._ended.set()
 
+    def _wait_for(self, other: OnItsWay | None) -> None:
+        while other is not None and not other.wait(TICK):
+            self.state = other.state
+            if self._cancels:
+                other.cancel()
+                raise Cancelled("cancelled before it began")
+
     def _made(self) -> Any:
+        self._wait_for(self._call.after)
         process = self._engines.take()
         if process is None:
             return self._call.here(self._tick)

@@ -19,7 +19,7 @@ import weakref
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
@@ -50,6 +50,18 @@ except BaseException:
 """
 
 
+class OnItsWay(Protocol):
+    """A call that was begun (`engines.Running`)."""
+
+    state: tuple[float, str]
+
+    def wait(self, seconds: float) -> bool:
+        """Whether it has ended within that time."""
+
+    def cancel(self) -> None:
+        """Ask it to end, and see to it."""
+
+
 @dataclass(frozen=True)
 class Call:
     """A function of the engine and what it is given.
@@ -64,6 +76,8 @@ class Call:
         keeps_best: whether the function returns something after a cancel.
         has_progress: whether it has a parameter ``progress`` for a callback, which returns False
             after a cancel.
+        after: a call on its way whose process makes this one once it has ended, however it has,
+            with what it keeps; cancelled with this one while that waits. None for no such call.
     """
 
     function: Callable[..., Any] | str
@@ -72,6 +86,7 @@ class Call:
     heard: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
     keeps_best: bool = False
     has_progress: bool = True
+    after: OnItsWay | None = None
 
     def here(self, progress: ProgressCallback | None = None) -> Any:
         """Make it in this process."""

@@ -257,7 +257,7 @@ def skin_model(
     *,
     fixed: Bools | None = None,
     thickest: float | None = None,
-    begun: TriangleMesh | None = None,
+    outside: TriangleMesh | None = None,
 ) -> SkinModel:
     """The skin of a part as shells.
 
@@ -271,9 +271,10 @@ def skin_model(
         monitor: asked for a cancel.
         fixed: (m,) which of the part's triangles no load case moves; None for none.
         thickest: mm, up to which the skin may become thicker; None where it does not.
-        begun: of `skin_mesh.begun_surface` for the same part and edge; None to begin anew.
+        outside: of `skin_mesh.even_surface` for the same part, edge and feet; None to make it.
     """
-    outside = even_surface(solid, edge, monitor, feet.places, begun)
+    if outside is None:
+        outside = even_surface(solid, edge, monitor, feet.places)
     triangles = outside.triangles.astype(np.int64)
     corners = outside.vertices[triangles]
     normal = remesh.normals(corners)

@@ -36,6 +36,13 @@ def note(cache: StageCache, word: str) -> list[str]:
     return words
 
 
+def note_late(cache: StageCache, word: str, path: str) -> list[str]:
+    """The same, once there is a file."""
+    while not Path(path).exists():
+        time.sleep(0.01)
+    return note(cache, word)
+
+
 def tell(
     times: int, *, progress: Callable[[float, str], bool], watch: Callable[[int, str], bool]
 ) -> int:

@@ -411,3 +411,37 @@ def test_a_process_that_is_warm_has_its_modules(engine):
     assert not made(engine, calls.has_imported, "wave")
     engine.warm("wave").result()
     assert made(engine, calls.has_imported, "wave")
+
+
+def test_a_call_after_another_one_has_its_process_and_what_that_keeps(engine, tmp_path):
+    cache, go_on = StageCache(), tmp_path / "go"
+    first = engine.begin(Call(calls.note_late, (cache, "one", str(go_on)), has_progress=False))
+    second = engine.begin(Call(calls.note, (cache, "two"), has_progress=False, after=first))
+    assert not second.wait(0.2)
+    go_on.touch()
+    assert second.result() == ["one", "two"]
+
+
+def test_a_call_after_one_that_fails_is_made(engine):
+    first = engine.begin(Call("nowhere:nothing", has_progress=False))
+    assert engine.begin(Call(calls.same, (1,), has_progress=False, after=first)).result() == 1
+
+
+def test_a_cancel_ends_the_call_that_another_one_waits_for(engine, tmp_path):
+    first = engine.begin(
+        Call(calls.note_late, (StageCache(), "", str(tmp_path / "never")), has_progress=False)
+    )
+    second = engine.begin(Call(calls.same, (1,), has_progress=False, after=first))
+    second.cancel()
+    for call in (second, first):
+        with pytest.raises(Cancelled):
+            call.result()
+
+
+def test_of_processes_that_wait_the_one_of_the_last_call_is_kept(engine, tmp_path):
+    cache, go_on = StageCache(), tmp_path / "go"
+    late = engine.begin(Call(calls.note_late, (cache, "late", str(go_on)), has_progress=False))
+    assert made(engine, calls.same, 1) == 1
+    go_on.touch()
+    late.result()
+    assert made(engine, calls.note, cache, "next") == ["late", "next"]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Radii that follow what a part carries: what is wanted, and the job that finds them."""
 
+from .ahead import prepare
 from .as_it_is import solve_struts
 from .building import Building
 from .file_proof import check_file_proof, prove_file
@@ -20,6 +21,7 @@ __all__ = [
     "SizedPart",
     "check_file_proof",
     "goal_of",
+    "prepare",
     "printed_note",
     "prove_file",
     "radius_field",

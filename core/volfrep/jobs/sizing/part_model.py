@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -17,15 +17,18 @@ from ...mesh.triangle_mesh import TriangleMesh
 from ...shell.domain import field_of
 from ...shell.thickness_field import ThicknessField
 from ...sizing.model import SizingModel, elastic, feet_of, fixed_facets, sizing_model
-from ...sizing.node_radii import smoothing
-from ...sizing.skin import skin_model
-from ...sizing.skin_mesh import begun_surface
+from ...sizing.node_radii import ComesOut, smoothing
+from ...sizing.skin import NO_FEET, Feet, skin_model
+from ...sizing.skin_mesh import begun_surface, even_surface
 from ...spatial.proximity import closest_points
-from ...util.cache import StageCache
+from ...trim.clip_struts import Clipped
+from ...util.cache import Kept, StageCache
+from ...util.content import content_of
 from ...util.errors import VolfrepError
 from ...util.progress import ProgressCallback
 from ...util.types import Floats
 from ..infill import Infill
+from ..kinds import lattice_kind
 from ..targets import solve_target
 from .goal import Goal
 from .printed import comes_out
@@ -38,6 +41,31 @@ DIMPLED = 0.5
 _ALONG = 6
 #: A node's image is as near to another node, in cells; and no more nodes may have none.
 _IMAGE, MOST_LONE = 1e-3, 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class Unloaded:
+    """What of a part's model no load changes.
+
+    Attributes:
+        wireframe: of the active cells, whole, mm.
+        clipped: the same struts, cut at the wall.
+        bounds: the least radius and the largest, mm.
+        borne: a radius that all nodes bear, mm.
+        comes_out: how struts come out; None as they are drawn.
+        edge: how long edges of the skin's triangles are, mm.
+        feet: where struts meet the skin.
+        outside: the skin's surface in such triangles; None without a skin.
+    """
+
+    wireframe: Wireframe
+    clipped: Clipped
+    bounds: tuple[float, float]
+    borne: float
+    comes_out: ComesOut | None
+    edge: float
+    feet: Feet
+    outside: TriangleMesh | None
 
 
 def part_model(
@@ -63,6 +91,52 @@ def part_model(
         VolfrepError: there are no struts that could be sized, or the radii make no sense.
     """
     spec, material = infill.spec, loads.material
+    part, skin = unloaded(infill, goal, cache, reach), None
+    wireframe = part.wireframe
+    if part.outside is not None:
+        with infill.monitor.stage("skin", 0.35, 0.4):
+            skin = skin_model(
+                infill.solid, thickness_of_skin(infill.solid, spec), part.edge, elastic(material),
+                infill.domain.openings, part.feet, infill.monitor,
+                fixed=fixed_facets(infill.solid, loads.cases), thickest=thickest,
+                outside=part.outside,
+            )  # fmt: skip
+    model = sizing_model(
+        wireframe, part.clipped, spec.kind.cube, infill.filling.spacing, material, loads.cases,
+        bounds=part.bounds, borne=part.borne, skin=skin, solid=infill.solid,
+        domain=infill.domain.mesh if infill.placement.is_cut else None, stays=infill.staying,
+        masses=loads.masses, comes_out=part.comes_out,
+    )  # fmt: skip
+    if goal.smooth:
+        smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)
+        model = replace(model, problem=replace(model.problem, smoother=smoother))
+    if goal.mirrors is not None:
+        groups, lone = goal.mirrors.groups(wireframe.nodes, _IMAGE * infill.filling.spacing)
+        if lone > MOST_LONE:
+            raise VolfrepError(
+                f"{lone:.0%} of the lattice's nodes have no image in the planes of symmetry: lay "
+                "a corner or the middle of a cell into each plane (the origin), and choose a cell "
+                "and a part that are their own images."
+            )
+        model = replace(model, problem=model.problem.alike(groups))
+    return model
+
+
+def unloaded(
+    infill: Infill, goal: Goal, cache: StageCache, reach: Floats | None = None
+) -> Unloaded:
+    """What of `part_model` no load changes, with what takes long kept in the part's cache.
+
+    Args:
+        infill: the part.
+        goal: as of `part_model`.
+        cache: as of `part_model`.
+        reach: as of `part_model`.
+
+    Raises:
+        VolfrepError: there are no struts that could be sized, or the radii make no sense.
+    """
+    spec = infill.spec
     if spec.output == "domain":
         raise VolfrepError("The output 'domain' holds no lattice to size: choose part or lattice.")
     if spec.fillet:
@@ -97,40 +171,16 @@ def part_model(
     out = None
     if goal.printing is not None:
         out = comes_out(goal.printing, wireframe, least)
-    skin = None
+    edge, feet, outside = 0.0, NO_FEET, None
     if spec.with_skin:
         edge = edge_of_skin(infill, goal.limits.frame_buckling is not None)
         held = given_radii(wireframe) if reach is None else reach
-        with infill.monitor.stage("skin", 0.3, 0.4):
-            skin = skin_model(
-                infill.solid, thickness_of_skin(infill.solid, spec), edge, elastic(material),
-                infill.domain.openings,
-                feet_of(
-                    wireframe, clipped, infill.domain.mesh,
-                    held if out is None else out.at_nodes(held),
-                ),
-                infill.monitor, fixed=fixed_facets(infill.solid, loads.cases), thickest=thickest,
-                begun=surface_to_begin_with(infill, edge),
-            )  # fmt: skip
-    model = sizing_model(
-        wireframe, clipped, spec.kind.cube, infill.filling.spacing, material, loads.cases,
-        bounds=(least, most), borne=bears.own, skin=skin, solid=infill.solid,
-        domain=infill.domain.mesh if infill.placement.is_cut else None, stays=infill.staying,
-        masses=loads.masses, comes_out=out,
-    )  # fmt: skip
-    if goal.smooth:
-        smoother = smoothing(wireframe.struts.astype(np.int64), len(wireframe.nodes), goal.smooth)
-        model = replace(model, problem=replace(model.problem, smoother=smoother))
-    if goal.mirrors is not None:
-        groups, lone = goal.mirrors.groups(wireframe.nodes, _IMAGE * infill.filling.spacing)
-        if lone > MOST_LONE:
-            raise VolfrepError(
-                f"{lone:.0%} of the lattice's nodes have no image in the planes of symmetry: lay "
-                "a corner or the middle of a cell into each plane (the origin), and choose a cell "
-                "and a part that are their own images."
+        with infill.monitor.stage("skin", 0.3, 0.35):
+            feet = feet_of(
+                wireframe, clipped, infill.domain.mesh, held if out is None else out.at_nodes(held)
             )
-        model = replace(model, problem=model.problem.alike(groups))
-    return model
+            outside = skin_surface(infill, edge, feet)
+    return Unloaded(wireframe, clipped, (least, most), bears.own, out, edge, feet, outside)
 
 
 def edge_of_skin(infill: Infill, is_dimpled: bool) -> float:
@@ -139,10 +189,22 @@ def edge_of_skin(infill: Infill, is_dimpled: bool) -> float:
     return max(edge, SKIN_EDGE_LEAST * infill.spec.shell)
 
 
-def surface_to_begin_with(infill: Infill, edge: float) -> TriangleMesh:
-    """The part's surface in triangles that become the skin's, whatever meets it there: kept."""
+def skin_surface(infill: Infill, edge: float, feet: Feet) -> TriangleMesh:
+    """The part's surface in triangles with vertices where struts meet it: kept.
+
+    So is what they are made of, whatever meets it there.
+    """
     part = infill.part_domain
-    return part.cache.run("surface", begun_surface, part.kept_solid, edge, part.watch).value
+    begun = part.cache.run("surface", begun_surface, part.kept_solid, edge, part.watch)
+    places = Kept(feet.places, content_of(feet.places))
+    return part.cache.run(
+        "skin surface", even_surface, part.kept_solid, edge, part.watch, places, begun
+    ).value
+
+
+def all_struts(spec: LatticeSpec) -> LatticeSpec:
+    """The specification with all struts, of fixed ends: which go is decided anew."""
+    return replace(lattice_kind(spec).with_fixed_struts(), remove_below=0.0)
 
 
 def without_target(

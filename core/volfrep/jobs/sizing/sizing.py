@@ -29,7 +29,6 @@ from ...util.progress import Monitor, ProgressCallback
 from ...util.showing import Shown
 from ...util.types import Floats
 from ..infill import Infill
-from ..kinds import lattice_kind
 from .buildable import buildable, checked
 from .goal import Goal
 from .governing import Governing, governing
@@ -49,7 +48,7 @@ from .notes import (
 )
 from .one_radius import no_worse, of_less_volume, of_one_radius
 from .overhanging import building_figures, overhanging_skin
-from .part_model import given_radii, part_model, without_target
+from .part_model import all_struts, given_radii, part_model, without_target
 from .printed import printed_figures, printed_note
 from .skin_search import (
     SkinDesign,
@@ -345,9 +344,7 @@ def _prepare(
     """The part's struts and skin as elements, their supports and loads."""
     notes = hot(loads.cases, goal.limits)
     spec = without_target(solid, spec, goal, cache, progress, notes)
-    # All are sized; which go is decided anew.
-    spec = replace(lattice_kind(spec).with_fixed_struts(), remove_below=0.0)
-    infill = Infill(solid, spec, monitor=monitor, cache=cache)
+    infill = Infill(solid, all_struts(spec), monitor=monitor, cache=cache)
     model = part_model(infill, loads, goal, cache)
     first = np.clip(given_radii(model.wireframe), model.problem.low, model.problem.high)
     return _Task(infill, loads, goal, model, first, notes, monitor, cache)

@@ -11,6 +11,12 @@ from test_freecad_fem_loads import add, analysis_of, face_at
 
 from freecad_volfrep import make_lattice_infill, size_lattice
 from freecad_volfrep.features.infill.live_preview import LivePreview
+from freecad_volfrep.features.sizing.as_built import (
+    building_in_words,
+    building_of,
+    is_sized_for_print,
+    sized_as_printed,
+)
 from freecad_volfrep.features.sizing.sized_states import (
     limit_names,
     limits_of,
@@ -22,13 +28,9 @@ from freecad_volfrep.features.sizing.sizing import (
     GOALS,
     ONLY_OF,
     analyses_of,
-    building_in_words,
-    building_of,
     carried_by,
     first_numbers,
-    is_sized_for_print,
     size_struts,
-    sized_as_printed,
     solve_struts,
     store_outcome,
 )

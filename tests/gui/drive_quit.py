@@ -114,6 +114,14 @@ def during_a_job_by_window():
 
 
 @costly
+def while_loads_are_picked():
+    """What is made ahead of a sizing ends with FreeCAD; the file is as it was."""
+    held = _quit("picking", "window", "Discard").get("Picking", _Held())
+    check("the mesh is in the file", held.meshes > 1000)
+    check("no load is", "Fem::" not in held.values)
+
+
+@costly
 def during_a_job_that_is_waited_for():
     """The same of a job that a script waits for, which is cancelled first."""
     held = _quit("waited_for", "window", "Save").get("Waited", _Held())
@@ -141,6 +149,7 @@ run_checks(
         by_key: None,
         several_documents_by_menu: None,
         during_a_job_by_window: None,
+        while_loads_are_picked: None,
         during_a_job_that_is_waited_for: None,
         after_undo: None,
         cancel_and_save: None,

@@ -710,6 +710,32 @@ def open_and_size_the_bracket():
     picture("bracket_5_mesh")
 
 
+@costly
+def end_what_is_made_ahead(doc, obj):
+    """What a sizing is given ahead ends with its panel: by Cancel, or with the document."""
+    from volfrep.process.engines import Engines
+
+    begin, begun = Engines.begin, []
+
+    def noted(self, call):
+        begun.append((getattr(call.function, "__name__", ""), begin(self, call)))
+        return begun[-1][1]
+
+    ahead = lambda: [one for name, one in begun if name == "prepare"]  # noqa: E731
+    Engines.begin = noted
+    try:
+        for end in (lambda: answer_panel("Cancel"), lambda: App.closeDocument(doc.Name)):
+            begun.clear()
+            obj.CellSize = obj.CellSize.Value + 1.0  # nothing of it is kept
+            open_panel(obj)
+            check("it is begun", wait_until(ahead), begun)
+            end()
+            check("it is ended", wait_until(lambda: ahead()[0].is_cancelled))
+            check("and over", wait_until(lambda: ahead()[0].wait(0.0)))
+    finally:
+        Engines.begin = begin
+
+
 def make_more_cases(doc, obj):
     """Another case is held alike; pressure, weight, directions; removed and cancelled."""
     before, steps = [one.Name for one in doc.Objects], doc.UndoCount
@@ -859,6 +885,7 @@ run_checks(
         load_by_clicks: filled,
         size_a_solid: boxed,
         open_and_size_the_bracket: None,
+        end_what_is_made_ahead: filled,
         make_more_cases: filled,
         warm_by_clicks: filled,
         without_an_analysis: loaded,

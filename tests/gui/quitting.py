@@ -8,6 +8,7 @@ and QUIT_ANSWERS. What fails is said and ends it with 3; else FreeCAD ends itsel
 import ctypes
 import os
 import sys
+import threading
 import traceback
 from contextlib import suppress
 from pathlib import Path
@@ -141,6 +142,17 @@ def job():
         raise AssertionError("no job runs beside the window")
 
 
+def picking():
+    """Loads are picked, and what no load changes is being made ahead."""
+    doc, _, infill = filled("Picking")
+    saved(doc)
+    select(infill)
+    _never.__enter__()
+    start_by_click(toolbar_button("Loads and Sizing"))
+    calls = lambda: [one for one in threading.enumerate() if one.name == "volfrep-call"]  # noqa: E731
+    wait_until(lambda: len(calls()) == 2)  # the process is got ready, and begins
+
+
 def waited_for():
     """One whose mesh a script's recompute waits for: it is quit while that runs."""
     infill = _about_to_change("Waited")
@@ -191,7 +203,7 @@ def unsaved():
 
 
 _never = jobs_that_never_end()
-OPEN = {f.__name__: f for f in (one, several, job, waited_for, undone, unsaved)}
+OPEN = {f.__name__: f for f in (one, several, job, picking, waited_for, undone, unsaved)}
 BY = {"key": press_keys, "menu": click_exit, "window": close_window}
 
 

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from freecad_volfrep.bridge.solids import SolidReader
     from volfrep import LatticeSpec
     from volfrep.design.forecast import Forecast
+    from volfrep.io.solid import Solid
     from volfrep.jobs.pipeline import FilledMesh
     from volfrep.mesh.triangle_mesh import TriangleMesh
     from volfrep.util.cache import StageCache
@@ -74,6 +75,7 @@ class LatticeInfill:
     _reader: Any = None
     _cache: Any = None
     _error: BaseException | None = None
+    _checked: tuple[str, Solid] | None = None
 
     def __init__(self, obj: App.DocumentObject) -> None:
         self._forget()
@@ -199,14 +201,12 @@ class LatticeInfill:
         Raises:
             VolfrepError: the mesh does not fit the properties.
         """
-        from volfrep.io.solid import check_solid
-
         require_engine()
         spec, solid = self.read(obj)
         if not is_of(obj.Fingerprint, obj, spec, solid):
             raise VolfrepError(f"'{obj.Label}' is out of date: update it first.")
         spec = with_radius(spec, json.loads(obj.Report).get("target"))
-        return check_solid(solid, obj.Base.Label), spec, self._cache
+        return self.checked(solid, obj.Base.Label), spec, self._cache
 
     def wanted(self, obj: App.DocumentObject) -> tuple[TriangleMesh, LatticeSpec, StageCache]:
         """As `inputs`, of the present properties: whether or not the mesh was made of them.
@@ -214,11 +214,24 @@ class LatticeInfill:
         Raises:
             VolfrepError: a property makes no sense, or there is no solid.
         """
-        from volfrep.io.solid import check_solid
-
         require_engine()
         spec, solid = self.read(obj)
-        return check_solid(solid, obj.Base.Label), spec, self._cache
+        return self.checked(solid, obj.Base.Label), spec, self._cache
+
+    def checked(self, mesh: TriangleMesh, name: str) -> Solid:
+        """As `volfrep.io.solid.check_solid`, once for the same mesh; on any thread."""
+        from volfrep.io.solid import check_solid
+        from volfrep.util.content import digest_of
+
+        key, known = digest_of(mesh.vertices, mesh.triangles, name), self._checked
+        if known is None or known[0] != key:
+            known = self._checked = key, check_solid(mesh, name)
+        return known[1]
+
+    @property
+    def cache(self) -> StageCache:
+        """The stages' results, once the solid was read."""
+        return self._cache
 
     def take_reader(self, reader: SolidReader) -> None:
         """Read the base by what has read it already."""
@@ -252,7 +265,7 @@ class LatticeInfill:
         self.job = Job()
         self._reader: Any = None
         self._cache: Any = None
-        self._error = None
+        self._error = self._checked = None
         self.made: Any = None
 
     def _made(self) -> Come:

@@ -19,7 +19,7 @@ from freecad_volfrep.translation import translate
 from .screen import screen
 
 if TYPE_CHECKING:
-    from volfrep.process.worker import Call
+    from volfrep.process.worker import Call, OnItsWay
 
 T = TypeVar("T")
 
@@ -40,6 +40,7 @@ def run_job(
     has_progress: bool = True,
     keeps_best: bool = False,
     heard: Mapping[str, Callable[..., Any]] = MappingProxyType({}),
+    after: OnItsWay | None = None,
     **keywords: Any,
 ) -> Any:
     """What a function of the engine, or of the workbench, returns or raises.
@@ -55,6 +56,7 @@ def run_job(
         has_progress: as of `Call`.
         keeps_best: as of `Call`.
         heard: as of `Call`.
+        after: as of `Call`.
         **keywords: that it is given, too.
 
     Raises:
@@ -62,7 +64,7 @@ def run_job(
     """
     from volfrep.process.worker import Call
 
-    call = Call(function, arguments, keywords, heard, keeps_best, has_progress)
+    call = Call(function, arguments, keywords, heard, keeps_best, has_progress, after)
     return run_call(title, call, in_freecad)
 
 

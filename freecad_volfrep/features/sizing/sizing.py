@@ -10,15 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 import FreeCAD as App
 
-from freecad_volfrep.features.infill.materials import material_of, process_of
+from freecad_volfrep.features.infill.materials import material_of
 from freecad_volfrep.features.infill.sized_radii import store_radii, store_skin
 from freecad_volfrep.features.jobs.progress import job_title, run_job
-from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, spoken, translate
+from freecad_volfrep.translation import QT_TRANSLATE_NOOP, grouped, translate
 from volfrep.design.parameters.specification import spec_value
 from volfrep.design.parameters.table import BY_NAME
 from volfrep.reports.tables import Table
 from volfrep.util.errors import VolfrepError
 
+from .as_built import building_of, printing_by, printing_of, spec_to_size
 from .heat import heat_loads
 from .sized_states import (
     is_sized_for,
@@ -30,10 +31,12 @@ from .sized_states import (
 )
 
 if TYPE_CHECKING:
-    from volfrep.jobs.sizing import Building, Goal, Printing, SizedPart
+    from volfrep.design.spec import LatticeSpec
+    from volfrep.jobs.sizing import Goal, SizedPart
     from volfrep.loads.load_cases import LoadCases
     from volfrep.mechanics.materials import SolidMaterial
     from volfrep.mesh.triangle_mesh import TriangleMesh
+    from volfrep.process.worker import OnItsWay
     from volfrep.sizing.optimise import Step
     from volfrep.sizing.strut_state import StrutState
 
@@ -349,6 +352,7 @@ def size_struts(
     as_printed: str = "",
     scatter: float = 0.0,
     for_print: bool = False,
+    ahead: Callable[[TriangleMesh, LatticeSpec], OnItsWay | None] | None = None,
 ) -> Outcome:
     """Size an infill's struts; the infill stays as it is (see `sized_radii.store_radii`).
 
@@ -367,6 +371,7 @@ def size_struts(
         scatter: stress and buckling are of struts thinner by so many standard deviations of it.
         for_print: struts and a sized skin no thinner than the infill's process prints, and none
             flatter as far as limits allow; the print goes up along the infill's BuildDirection.
+        ahead: what is made ahead for a solid and a specification, which is waited for.
 
     Raises:
         VolfrepError: no analysis is chosen, or what is asked for makes no sense or cannot be.
@@ -376,16 +381,15 @@ def size_struts(
     from volfrep.jobs.sizing import size
 
     solid, spec, cache = obj.Proxy.wanted(obj)
+    spec = spec_to_size(obj, spec, for_print)
     loads = loads_of(obj, analyses)
     density = loads.material.density
     wanted = replace(
         _wanted(goal, numbers, loads.material),
         remove_thin=remove_thin,
-        printing=_printing(obj, as_printed, scatter),
+        printing=printing_by(obj, as_printed, scatter),
         building=building_of(obj) if for_print else None,
     )
-    if for_print or is_sized_for_print(obj):
-        spec = replace(spec, flat_struts=None)  # which go is decided anew
     steps: list[tuple[str, ...]] = []
 
     def watch(number: int, step: Step) -> bool:
@@ -397,6 +401,7 @@ def size_struts(
     part = run_job(
         job_title("Sizing {label}", obj), size, solid, spec, loads, wanted,
         prove_it=prove, cache=cache, heard={"watch": watch}, keeps_best=True,
+        after=None if ahead is None else ahead(solid, spec),
     )  # fmt: skip
     steps.append(_row(len(steps), part.sized.last, density))
     states = part.states
@@ -467,83 +472,6 @@ def _wanted(goal: str, numbers: Mapping[str, float], material: SolidMaterial) ->
             "Least mass needs a limit: of stress, displacement, buckling, frequency."
         )
     return wanted
-
-
-def sized_as_printed(obj: App.DocumentObject) -> tuple[str, float]:
-    """By which table, and how many standard deviations thinner, an infill was sized as printed.
-
-    The table is empty where the infill was sized as drawn, or not at all.
-    """
-    report = json.loads(obj.SizingReport) if obj.SizingReport else {}
-    printed = report.get("as_printed") or {}
-    return printed.get("name", ""), float(printed.get("scatters", 0.0))
-
-
-def is_sized_for_print(obj: App.DocumentObject) -> bool:
-    """Whether an infill was sized for what its process builds."""
-    return bool(obj.SizingReport) and "building" in json.loads(obj.SizingReport)
-
-
-def building_of(obj: App.DocumentObject) -> Building:
-    """How an infill is built: by its process, or the usual one of its material.
-
-    Raises:
-        VolfrepError: neither is chosen.
-    """
-    from volfrep.jobs.sizing import Building
-    from volfrep.reports.processes import find_process
-
-    process = process_of(obj)
-    if process is None:
-        raise VolfrepError("No process is chosen to build for: choose one for the infill.")
-    return Building(find_process(process), tuple(obj.BuildDirection))
-
-
-def building_in_words(building: Building) -> str:
-    """By which process, along which direction, and what it asks of struts and skin."""
-    from volfrep.reports.sizing_results import along_text
-
-    process = building.process
-    said = translate(
-        "VolfrepSizePanel",
-        "{process}, built along {direction}: struts from {strut} mm thick, walls from {wall} mm",
-    )
-    if process.inclination:
-        said = translate(
-            "VolfrepSizePanel",
-            "{process}, built along {direction}: struts from {strut} mm thick and {degrees} "
-            "degrees steep, walls from {wall} mm",
-        )
-    return said.format(
-        process=process.name,
-        direction=along_text(building.build_direction),
-        strut=spoken(f"{process.strut:g}"),
-        degrees=f"{process.inclination:g}",
-        wall=spoken(f"{process.wall:g}"),
-    )
-
-
-def printing_of(obj: App.DocumentObject) -> Printing | None:
-    """How an infill's struts come out by which it was sized; None where as drawn.
-
-    Raises:
-        VolfrepError: the table was the user's own, and its file is gone.
-    """
-    return _printing(obj, *sized_as_printed(obj))
-
-
-def _printing(obj: App.DocumentObject, table: str, scatter: float) -> Printing | None:
-    """How an infill's struts come out; None where they are taken as drawn.
-
-    Raises:
-        VolfrepError: there is no such table, or it does not say how far diameters scatter.
-    """
-    from volfrep.design.as_printed import find_printed_table
-    from volfrep.jobs.sizing import Printing
-
-    if not table:
-        return None
-    return Printing(find_printed_table(table), tuple(obj.BuildDirection), scatter)
 
 
 def _row(number: int, step: Step, density: float) -> tuple[str, ...]:

@@ -109,7 +109,8 @@ def size_lattice(obj: App.DocumentObject) -> None:
 
 def show_strut_results(infill: App.DocumentObject) -> None:
     """Solve an infill's struts for the document's load cases, and show them in colours."""
-    from freecad_volfrep.features.sizing.sizing import printing_of, solve_struts
+    from freecad_volfrep.features.sizing.as_built import printing_of
+    from freecad_volfrep.features.sizing.sizing import solve_struts
     from freecad_volfrep.gui.colours.colour_dock import open_struts
 
     with errors_shown():

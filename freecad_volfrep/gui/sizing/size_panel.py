@@ -4,25 +4,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib import import_module
-from threading import Thread
 from typing import Any
 
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad_volfrep.engines import engines
 from freecad_volfrep.features.infill.materials import process_of
+from freecad_volfrep.features.sizing.ahead import goal_ahead
+from freecad_volfrep.features.sizing.as_built import (
+    building_in_words,
+    building_of,
+    is_sized_for_print,
+    sized_as_printed,
+)
 from freecad_volfrep.features.sizing.sizing import (
     GOALS,
     ONLY_OF,
     Outcome,
-    building_in_words,
-    building_of,
     first_numbers,
-    is_sized_for_print,
     size_struts,
-    sized_as_printed,
     store_outcome,
 )
 from freecad_volfrep.gui.colours.colour_dock import close_struts, open_struts
@@ -43,13 +43,12 @@ from freecad_volfrep.gui.windows.report_window import show_report
 from freecad_volfrep.translation import QT_TRANSLATE_NOOP, spoken, translate
 from volfrep.util.errors import Cancelled, VolfrepError
 
+from .ahead import Ahead
 from .heat_box import HeatBox
 from .loads_box import LoadsBox
 
 #: The table of steps is brought up to date so often while they are made, ms.
 TICK = 150
-#: What is loaded before it is asked for.
-SIZING = "volfrep.jobs.sizing"
 #: Of the list of tables, px: their names are long.
 _TABLE_WIDTH = 180
 #: Standard deviations that may be asked for, at most.
@@ -166,7 +165,8 @@ class SizePanel:
         self._show_fields()
         # Once FreeCAD has put the panel up.
         QtCore.QTimer.singleShot(0, self._begin_loads)
-        QtCore.QTimer.singleShot(0, _get_ready)
+        self._ahead = Ahead(self._doc)
+        QtCore.QTimer.singleShot(0, self._begin_ahead)
 
     def getStandardButtons(self) -> int:  # noqa: N802
         """OK and Cancel."""
@@ -225,6 +225,19 @@ class SizePanel:
         if self._is_open:
             self._loads.begin()
 
+    def _begin_ahead(self) -> None:
+        """Have made what no load changes, of the values that the panel begins with."""
+        if not self._is_open:
+            return
+        for_print = self._for_print.isChecked()
+        try:
+            goal = goal_ahead(
+                self._obj, self._numbers(), self._printed_table(), self._scatter.value(), for_print
+            )
+        except VolfrepError:  # a sizing tells it
+            return
+        self._ahead.begin(self._obj, goal, for_print)
+
     def _show_mesh(self, is_there: bool | None) -> None:
         if is_there:
             show_mesh(self._obj)
@@ -271,6 +284,7 @@ class SizePanel:
                 as_printed=self._printed_table(),
                 scatter=self._scatter.value(),
                 for_print=self._for_print.isChecked(),
+                ahead=self._ahead.take,
             )
         except VolfrepError as error:
             self._say(str(error), wrong=True)
@@ -539,14 +553,9 @@ class SizePanel:
 
     def _close(self) -> None:
         self._is_open = False
+        self._ahead.end()
         self._timer.stop()
         close_panel(self._doc)
-
-
-def _get_ready() -> None:
-    """Load what sizing needs, here and in the process that will make it, while loads are picked."""
-    engines().warm(SIZING)
-    Thread(target=import_module, args=(SIZING,), name="volfrep-sizing").start()
 
 
 def _step_in_words(step: tuple[str, ...]) -> tuple[str, ...]:

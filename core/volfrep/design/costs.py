@@ -74,11 +74,13 @@ BYTES_PER_CELL = 500.0
 #: Octet take 0.39 GB in all, 11 million of BCC 0.76.
 BYTES_PER_STRUT = 60.0
 #: A beam of a 3MF file, with its share of a node: seconds and bytes in memory in a block, the same
-#: in a part, where a skin's programs are loaded beside; and bytes of the file. Of blocks of 216,000
-#: and a million cells of Box, CVC, BCC and Octet told over taken is 0.7 to 1.1 for seconds, 0.8 to
-#: 1.2 for the file; of balls of 120,000 and a million cells of BCC 0.5 and 0.9, 0.9 and 1.0.
+#: in a part, where a skin's programs are loaded beside; and bytes of the file. Told over taken, in
+#: processor seconds: of blocks of 216,000 and a million cells of Box, CVC, BCC and Octet 0.7 to 1.1
+#: for seconds, 0.8 to 1.2 for the file; of a million of BCC in a ball and of CVC in the GE bracket
+#: 1.4 and 0.7 for seconds, 1.0 for memory, 1.0 and 0.9 for the file; of 34,000 struts, most of
+#: whose time is the skin's, 0.4 for seconds.
 SECONDS_PER_BLOCK_BEAM = 1e-6
-SECONDS_PER_BEAM = 3.4e-6
+SECONDS_PER_BEAM = 5.4e-6
 BYTES_PER_BEAM = 125.0
 BYTES_OF_A_PART = 1.5e8
 FILE_BYTES_PER_BEAM = 4.2

@@ -163,6 +163,11 @@ SENTENCES = marked(
     "Results of {case}",
     "No process is chosen to build for: choose one for the infill.",
     "Struts are no thinner than {process} prints: {radius} mm in radius.",
+    "All figures are of struts as printed ({table}), {thin} to {thick} mm thick; drawn are {least} "
+    "to {most} mm, {mass} g.",
+    "All figures are of struts as printed ({table}), {thin} to {thick} mm thick; drawn are {least} "
+    "to {most} mm, {mass} g; stress and buckling are of struts thinner by {scatters} standard "
+    "deviations.",
     "The skin is no thinner than {process} prints: {wall} mm.",
     "Struts that lie flatter than {process} builds stay: {reason}. Another cell, or another build "
     "direction, may have fewer of them.",

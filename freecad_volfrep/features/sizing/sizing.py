@@ -101,14 +101,11 @@ class Outcome:
 
     def summary(self) -> str:
         """Sentences for the panel: what was found, and whether another solver agrees."""
-        from volfrep.jobs.sizing import printed_note
-
         report = self.part.report
-        proof, printed = report["calculix"], report.get("as_printed")
+        proof, built = report["calculix"], self._built()
+        printed = [report["as_printed"]["note"]] if "as_printed" in report else []
         if proof is None:
-            told = [] if printed is None else [printed_note(printed)]
-            told += report.get("building", {}).get("notes", ())
-            said = " ".join(note for note in report["notes"] if note not in told)
+            said = " ".join(note for note in report["notes"] if note not in (*printed, *built))
         else:
             off = 100.0 * max(proof["displacements_off"])
             said = (
@@ -127,8 +124,7 @@ class Outcome:
                     "VolfrepSizePanel", "CalculiX does not confirm this design: see its notes."
                 )
                 said = f"{said} {refused}"
-        found = " ".join(text for text in (self._found(), self._printed(), said) if text)
-        return "\n".join([found, *self._built()])
+        return "\n".join([f"{self._found()} {said}".rstrip(), *printed, *built])
 
     def _built(self) -> list[str]:
         """What its process asked for, in sentences; none where it was not sized for one."""
@@ -148,24 +144,6 @@ class Outcome:
             degrees=f"{built['inclination_degrees']:g}",
         )
         return [*([said] if built["removed"] else ()), *built.get("notes", ())]
-
-    def _printed(self) -> str:
-        """How struts come out, in a sentence; empty where they are taken as drawn."""
-        printed = self.part.report.get("as_printed")
-        if printed is None:
-            return ""
-        return translate(
-            "VolfrepSizePanel",
-            "All figures are of struts as printed ({table}), {thin:.3f} to {thick:.3f} mm thick; "
-            "drawn are {least:.3f} to {most:.3f} mm, {mass:.4g} g.",
-        ).format(
-            table=printed["table"],
-            thin=printed["diameters_mm"][0],
-            thick=printed["diameters_mm"][1],
-            least=printed["drawn_diameters_mm"][0],
-            most=printed["drawn_diameters_mm"][1],
-            mass=printed["drawn_strut_mass_g"],
-        )
 
     def _found(self) -> str:
         """What was found, in a sentence."""

@@ -4058,6 +4058,14 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Eine Steifigkeit, die den Radius bestimmt, ist die eines Werkstoffs: einen für die Füllung wählen.</translation>
     </message>
     <message>
+      <source>All figures are of struts as printed ({table}), {thin} to {thick} mm thick; drawn are {least} to {most} mm, {mass} g.</source>
+      <translation>Alle Werte gelten für Streben wie gedruckt ({table}), {thin} bis {thick} mm dick; gezeichnet sind {least} bis {most} mm, {mass} g.</translation>
+    </message>
+    <message>
+      <source>All figures are of struts as printed ({table}), {thin} to {thick} mm thick; drawn are {least} to {most} mm, {mass} g; stress and buckling are of struts thinner by {scatters} standard deviations.</source>
+      <translation>Alle Werte gelten für Streben wie gedruckt ({table}), {thin} bis {thick} mm dick; gezeichnet sind {least} bis {most} mm, {mass} g; Spannung und Knicken gelten für Streben, die um {scatters} Standardabweichungen dünner sind.</translation>
+    </message>
+    <message>
       <source>An expression or another object says how '{label}' lies: turn that instead.</source>
       <translation>Ein Ausdruck oder ein anderes Objekt bestimmt die Lage von '{label}': stattdessen das drehen.</translation>
     </message>
@@ -4515,10 +4523,6 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>A .csv file with the columns inclination, nominal, measured, as Coupons makes</source>
       <translation>Eine .csv-Datei mit den Spalten inclination, nominal, measured, wie der Befehl Proben sie anlegt</translation>
-    </message>
-    <message>
-      <source>All figures are of struts as printed ({table}), {thin:.3f} to {thick:.3f} mm thick; drawn are {least:.3f} to {most:.3f} mm, {mass:.4g} g.</source>
-      <translation>Alle Werte gelten für Streben wie gedruckt ({table}), {thin:.3f} bis {thick:.3f} mm dick; gezeichnet sind {least:.3f} bis {most:.3f} mm, {mass:.4g} g.</translation>
     </message>
     <message>
       <source>All limits are held.</source>

@@ -4058,6 +4058,14 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Una rigidezza che determina il raggio è quella di un materiale: sceglierne uno per il riempimento.</translation>
     </message>
     <message>
+      <source>All figures are of struts as printed ({table}), {thin} to {thick} mm thick; drawn are {least} to {most} mm, {mass} g.</source>
+      <translation>Tutti i valori sono di aste come stampate ({table}), spesse da {thin} a {thick} mm; disegnate sono da {least} a {most} mm, {mass} g.</translation>
+    </message>
+    <message>
+      <source>All figures are of struts as printed ({table}), {thin} to {thick} mm thick; drawn are {least} to {most} mm, {mass} g; stress and buckling are of struts thinner by {scatters} standard deviations.</source>
+      <translation>Tutti i valori sono di aste come stampate ({table}), spesse da {thin} a {thick} mm; disegnate sono da {least} a {most} mm, {mass} g; tensione e instabilità sono di aste più sottili di {scatters} deviazioni standard.</translation>
+    </message>
+    <message>
       <source>An expression or another object says how '{label}' lies: turn that instead.</source>
       <translation>Un'espressione o un altro oggetto dice come è disposto '{label}': ruotare quello.</translation>
     </message>
@@ -4515,10 +4523,6 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>A .csv file with the columns inclination, nominal, measured, as Coupons makes</source>
       <translation>Un file .csv con le colonne inclination, nominal, measured, come lo crea il comando Provini</translation>
-    </message>
-    <message>
-      <source>All figures are of struts as printed ({table}), {thin:.3f} to {thick:.3f} mm thick; drawn are {least:.3f} to {most:.3f} mm, {mass:.4g} g.</source>
-      <translation>Tutti i valori sono di aste come stampate ({table}), spesse da {thin:.3f} a {thick:.3f} mm; disegnate sono da {least:.3f} a {most:.3f} mm, {mass:.4g} g.</translation>
     </message>
     <message>
       <source>All limits are held.</source>

@@ -105,7 +105,7 @@ def test_a_row_is_drawn_so_that_what_comes_out_holds_the_stress():
     told = made.sized.report["as_printed"]
     assert told["diameters_mm"][1] == pytest.approx(2 * needed, rel=5e-3)
     assert told["drawn_strut_mass_g"] < made.sized.report["strut_mass_g"]
-    assert any("as they come out" in note for note in made.sized.report["notes"])
+    assert any("struts as printed" in note for note in made.sized.report["notes"])
 
 
 @pytest.mark.parametrize(

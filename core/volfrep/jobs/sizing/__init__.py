@@ -6,7 +6,7 @@ from .as_it_is import solve_struts
 from .building import Building
 from .file_proof import check_file_proof, prove_file
 from .goal import GOALS, Goal, goal_of
-from .printed import Printing, printed_note
+from .printed import Printing
 from .sizing import (
     SizedPart,
     size,
@@ -22,7 +22,6 @@ __all__ = [
     "check_file_proof",
     "goal_of",
     "prepare",
-    "printed_note",
     "prove_file",
     "radius_field",
     "size",

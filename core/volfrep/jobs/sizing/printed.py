@@ -96,7 +96,7 @@ def printed_figures(
     shape = model.problem.radii
     out = 2.0 * shape.of_struts(design.radii)
     drawn = 2.0 * shape.drawn(design.radii)
-    return {
+    figures = {
         "name": printing.table.name,
         "table": printing.table.title,
         "build_direction": [float(value) for value in printing.build_direction],
@@ -105,10 +105,10 @@ def printed_figures(
         "drawn_strut_mass_g": shape.filled.at(design.radii) * density / 1000.0,
         "scatters": printing.scatters,
     }
+    return {**figures, "note": _in_words(figures)}
 
 
-def printed_note(figures: dict[str, Any]) -> str:
-    """The same in a sentence for the user."""
+def _in_words(figures: dict[str, Any]) -> str:
     (thin, thick), (least, most) = figures["diameters_mm"], figures["drawn_diameters_mm"]
     scatter = ""
     if figures["scatters"]:
@@ -117,7 +117,7 @@ def printed_note(figures: dict[str, Any]) -> str:
             "deviations"
         )
     return (
-        f"Stress, stiffness and mass are those of struts as they come out, {thin:.3f} to "
-        f"{thick:.3f} mm thick; drawn are {least:.3f} to {most:.3f} mm and "
-        f"{figures['drawn_strut_mass_g']:.4g} g ({figures['table']}){scatter}."
+        f"All figures are of struts as printed ({figures['table']}), {thin:.3f} to {thick:.3f} mm "
+        f"thick; drawn are {least:.3f} to {most:.3f} mm, {figures['drawn_strut_mass_g']:.4g} "
+        f"g{scatter}."
     )

@@ -49,7 +49,7 @@ from .notes import (
 from .one_radius import no_worse, of_less_volume, of_one_radius
 from .overhanging import building_figures, overhanging_skin
 from .part_model import all_struts, given_radii, part_model, without_target
-from .printed import printed_figures, printed_note
+from .printed import printed_figures
 from .skin_search import (
     SkinDesign,
     design_skin,
@@ -602,7 +602,7 @@ def _record(
             search.sized.analysis,
             task.loads.material.density,
         )
-        report["notes"].append(printed_note(report["as_printed"]))
+        report["notes"].append(report["as_printed"]["note"])
     skin = None
     if task.skin is not None:
         skin = governing_thickness(task.skin, task.goal.limits)

@@ -68,7 +68,7 @@ class Result:
         for whose in (SIZED, *(column for column in COLUMNS if column != SIZED)):
             value = self.values.get(whose)
             if value is not None:
-                text = " to ".join(map(shown, value)) if _is_range(value) else shown(value)
+                text = _range_text(value) if _is_range(value) else shown(value)
                 unit = f" {self.unit}" * bool(self.unit and not texts)
                 texts.append(f"{f'{whose} ' * (whose != SIZED)}{text}{unit}")
         return f"{begins}{self.name}", "; ".join([*texts, *([self.note] if self.note else ())])
@@ -105,7 +105,10 @@ def result_tables(results: Iterable[Result]) -> list[Table]:
             row: list[Any] = [one.title]
             for whose in columns:
                 value = one.values.get(whose)
-                row.extend(value if _is_range(value) else [value])
+                if _is_range(value) and len(columns) == 1:
+                    row.extend(value)  # a number a column, where no header says whose
+                else:
+                    row.append(_range_text(value) if _is_range(value) else value)
             cells.append((*row, *([one.note] if one.note else ())))
         header = ("", *columns) if len(columns) > 1 else ()
         tables.append(Table(f"{subject}{' of ' * bool(case)}{case}", tuple(cells), header))
@@ -136,6 +139,10 @@ def along_text(direction: Sequence[float]) -> str:
 
 def _is_range(value: Any) -> TypeGuard[Sequence[float]]:
     return isinstance(value, (list, tuple))
+
+
+def _range_text(value: Sequence[float]) -> str:
+    return " to ".join(map(shown, value))
 
 
 #: A design's radii in mm, mass of struts in g, uses of limits, and figures of every load case.

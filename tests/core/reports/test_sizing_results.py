@@ -53,3 +53,10 @@ def test_what_calculix_finds_stands_beside_the_design_everywhere() -> None:
     assert row == {"sized": 0.1, "one radius, same mass": 0.1, "CalculiX": pytest.approx(0.102)}
     (case,) = case_table(results).rows
     assert case == ("down", 0.1, pytest.approx(0.102), 50.0)
+
+
+def test_a_range_stays_in_the_column_of_whose_it_is() -> None:
+    (table, *_) = result_tables(sizing_results(REPORT))
+    assert table.header == ("", "sized", "one radius, same mass")
+    (gain,) = (row for row in table.rows if row[0].startswith("same mass"))
+    assert gain[1:3] == ("1.5 to 2", None)

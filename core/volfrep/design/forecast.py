@@ -130,6 +130,12 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
         cells = min(cells, float(grid) * spec.cell_size**3 / one)
     narrow = narrow_gaps(solid, spec)
     seconds = _skin_seconds(solid, spec) + costs.SECONDS_PER_TRIANGLE * triangles
+    if spec.streams and spec.output != "domain":
+        # Octants that the wall does not come near are placed and written, and no more.
+        far = volume * share_deeper(solid, depth + costs.CUT_LAYER * spec.cell_size)
+        placed = dense * expected_triangles(spec, min(far, inside))
+        each = costs.SECONDS_PER_TRIANGLE - costs.SECONDS_PER_PLACED_TRIANGLE
+        seconds -= each * placed
     if spec.output != "domain":
         # Within a part all cells are there: those of the octants that are not lie outside.
         seconds += spec.kind.meshing_seconds(1.0)

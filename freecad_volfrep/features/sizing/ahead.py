@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 import FreeCAD as App
@@ -20,19 +20,29 @@ def goal_ahead(
     as_printed: str,
     scatter: float,
     for_print: bool,
-) -> Goal:
+) -> Callable[[], Goal]:
     """What of a goal counts before loads and material are known; arguments as of `size_struts`.
+
+    Returns:
+        What makes it, on any thread: the engine's modules take a while to load.
 
     Raises:
         VolfrepError: as `size_struts`.
     """
-    from volfrep.jobs.sizing import Goal
-    from volfrep.sizing.analysis import Limits
+    least, most, buckling = (numbers[name] or None for name in ("thinnest", "thickest", "buckling"))
+    printing = printing_by(obj, as_printed, scatter)
+    building = building_of(obj) if for_print else None
 
-    return Goal(
-        limits=Limits(buckling=numbers["buckling"] or None),
-        thinnest=numbers["thinnest"] or None,
-        thickest=numbers["thickest"] or None,
-        printing=printing_by(obj, as_printed, scatter),
-        building=building_of(obj) if for_print else None,
-    )
+    def goal() -> Goal:
+        from volfrep.jobs.sizing import Goal
+        from volfrep.sizing.analysis import Limits
+
+        return Goal(
+            Limits(buckling=buckling),
+            thinnest=least,
+            thickest=most,
+            printing=printing,
+            building=building,
+        )
+
+    return goal

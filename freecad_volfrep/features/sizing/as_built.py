@@ -45,12 +45,12 @@ def building_of(obj: App.DocumentObject) -> Building:
     Raises:
         VolfrepError: neither is chosen.
     """
-    from volfrep.jobs.sizing import Building
-    from volfrep.reports.processes import find_process
-
     process = process_of(obj)
     if process is None:
         raise VolfrepError("No process is chosen to build for: choose one for the infill.")
+    from volfrep.jobs.sizing import Building
+    from volfrep.reports.processes import find_process
+
     return Building(find_process(process), tuple(obj.BuildDirection))
 
 
@@ -93,9 +93,9 @@ def printing_by(obj: App.DocumentObject, table: str, scatter: float) -> Printing
     Raises:
         VolfrepError: there is no such table, or it does not say how far diameters scatter.
     """
+    if not table:
+        return None
     from volfrep.design.as_printed import find_printed_table
     from volfrep.jobs.sizing import Printing
 
-    if not table:
-        return None
     return Printing(find_printed_table(table), tuple(obj.BuildDirection), scatter)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
 from threading import Lock, Thread
 from typing import TYPE_CHECKING, Any
@@ -40,14 +41,13 @@ class Ahead:
         self._is_over = False
         self._running: Running = self._engines.warm(SIZING)
         self._made_of: tuple[TriangleMesh, str] | None = None
-        Thread(target=import_module, args=(SIZING,), name="volfrep-sizing").start()
 
     def slotDeletedDocument(self, doc: App.Document) -> None:  # noqa: N802
         """Called by FreeCAD: its panel may stay."""
         if doc == self._doc:
             self.cancel()
 
-    def begin(self, obj: App.DocumentObject, goal: Goal, for_print: bool) -> None:
+    def begin(self, obj: App.DocumentObject, goal: Callable[[], Goal], for_print: bool) -> None:
         """Make what an infill needs as it is now."""
         try:
             spec, mesh = obj.Proxy.read(obj)
@@ -59,8 +59,9 @@ class Ahead:
         Thread(target=self._begin, args=asked, name="volfrep-ahead", daemon=True).start()
 
     def _begin(
-        self, proxy: Any, mesh: TriangleMesh, name: str, spec: LatticeSpec, goal: Goal
+        self, proxy: Any, mesh: TriangleMesh, name: str, spec: LatticeSpec, goal: Callable[[], Goal]
     ) -> None:
+        import_module(SIZING)
         from volfrep.jobs.sizing import prepare
         from volfrep.process.worker import Call
 
@@ -71,7 +72,7 @@ class Ahead:
         with self._changing:
             if self._is_over:
                 return
-            call = Call(prepare, (solid, spec, goal), {"cache": proxy.cache}, after=self._running)
+            call = Call(prepare, (solid, spec, goal()), {"cache": proxy.cache}, after=self._running)
             self._made_of, self._running = (solid, spec.digest()), self._engines.begin(call)
 
     def take(self, solid: TriangleMesh, spec: LatticeSpec) -> Running | None:

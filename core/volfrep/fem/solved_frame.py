@@ -271,9 +271,7 @@ def _static(case: Case) -> str:
             value = case.prescribed[node, axis]
             lines.append(f"{node + 1},{axis + 1},{axis + 1},{value:.12g}\n")
     lines += _loads(case, 1.0)
-    lines.append(
-        "*NODE PRINT,NSET=NALL\nU\n*NODE FILE,OUTPUT=2D\nU\n*EL FILE,SECTION FORCES\nS\n*END STEP\n"
-    )
+    lines.append("*NODE PRINT,NSET=NALL\nU\n*EL FILE,OUTPUT=2D,SECTION FORCES\nS\n*END STEP\n")
     return "".join(lines)
 
 

@@ -25,7 +25,7 @@ from ..util.progress_bar import drawn
 from .files import read_part
 from .options import SizeOptions, size_options
 from .solve import tell_expected
-from .telling import print_rows, print_summary, print_warnings
+from .telling import print_summary, print_warnings
 
 if TYPE_CHECKING:
     from ..design.spec import LatticeSpec
@@ -119,7 +119,11 @@ def run_size(given: argparse.Namespace) -> int | None:
     print_warnings([*made.report["notes"], *kept])
     print_summary(report, options.output, printing, quiet=options.quiet, before=seconds)
     if not options.quiet:
-        print_rows(*made.rows(), ("time of sizing", f"{seconds:.1f} s of it"))
+        from ..reports.sizing_results import result_tables, sizing_results
+        from ..reports.tables import as_text
+
+        print(as_text(result_tables(sizing_results(made.report))))
+        print(f"Sizing took {seconds:.1f} s of the time.")
     return None if made.sized.holds else EXIT_NOT_HELD
 
 

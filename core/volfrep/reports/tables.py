@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables of figures: shown to the user as HTML, saved as CSV."""
+"""Tables of figures: shown to the user as HTML or text, saved as CSV."""
 
 from __future__ import annotations
 
 import csv
 import html
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import Any
 
 #: Separates columns in a CSV file.
@@ -15,6 +16,8 @@ SEPARATOR = ","
 #: A table whose lines have more letters is as wide as the window, but for a hundredth: Qt rounds
 #: columns that it has to squeeze up, and a whole window would then be scrolled by that pixel.
 LONG, WIDTH = 48, ' width="99%"'
+#: In text a cell of more letters does not widen its column.
+WORDY = 40
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,19 @@ def table_html(table: Table, said: Callable[[str], str] = str) -> str:
         cells = "".join(f"<td>{html.escape(said(shown(value)))}</td>" for value in others)
         parts.append(f"<tr><td>{html.escape(said(str(first)))}&nbsp;&nbsp;</td>{cells}</tr>")
     return "\n".join([*parts, "</table>"])
+
+
+def as_text(tables: Iterable[Table]) -> str:
+    """The tables one below the other as a terminal shows them, their columns in line."""
+    lines = []
+    for table in tables:
+        rows = [[table.title, *table.header[1:]]]
+        for first, *others in table.rows:
+            rows.append([f"  {first}", *("" if cell is None else shown(cell) for cell in others)])
+        short = [[len(cell) if len(cell) <= WORDY else 0 for cell in row] for row in rows]
+        widths = [max(column) for column in zip_longest(*short, fillvalue=0)]
+        lines += ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
+    return "\n".join(lines)
 
 
 def as_csv(tables: list[Table]) -> str:

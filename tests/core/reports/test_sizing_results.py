@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from volfrep.reports.sizing_results import case_table, result_tables, sizing_results
+from volfrep.reports.tables import as_text
 
 LARGEST = {"compliance_nmm": 4.0, "displacement_mm": 0.1, "stress_mpa": 50.0, "buckling": 0.1,
            "frame_buckling_factor": None}  # fmt: skip
@@ -53,6 +54,14 @@ def test_what_calculix_finds_stands_beside_the_design_everywhere() -> None:
     assert row == {"sized": 0.1, "one radius, same mass": 0.1, "CalculiX": pytest.approx(0.102)}
     (case,) = case_table(results).rows
     assert case == ("down", 0.1, pytest.approx(0.102), 50.0)
+
+
+def test_columns_of_a_terminal_are_in_line() -> None:
+    text = as_text(result_tables(sizing_results(REPORT)))
+    (head, *rows) = text[text.index("Results of down") :].splitlines()
+    stress = next(row for row in rows if row.startswith("  largest stress, MPa"))
+    assert stress.index("50") == head.index("sized")
+    assert stress.index("30") == head.index("one radius, same mass")
 
 
 def test_a_range_stays_in_the_column_of_whose_it_is() -> None:

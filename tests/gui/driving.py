@@ -30,6 +30,8 @@ from freecad_volfrep.gui.latest import are_there_questions
 OUT = Path(os.environ["GUI_OUT"])
 #: Of what must come, in s: only what never comes takes so long.
 PATIENCE = 60
+#: How often Return is pressed in a file dialog that stays open.
+ANSWERS = 5
 #: Of one check, in s: then it hangs, in a box that nobody answers or in FreeCAD.
 LONGEST = int(os.environ.get("GUI_LONGEST", "400"))
 #: The same of one that is marked as slow.
@@ -389,7 +391,12 @@ def answer_file_dialog(path, name):
         xdotool("type", str(path))
         wait_until(lambda: edit.text() == str(path))
         picture(name)
-        xdotool("key", "Return")
+        for _ in range(ANSWERS):  # a list of files that begin so may take the first one
+            xdotool("key", "Return")
+            if comes_true(lambda: QtGui.QApplication.activeModalWidget() is not dialog, 2.0):
+                return
+        fail(f"the dialog for {path} stays open")
+        dialog.reject()
 
     when_dialog(QtGui.QFileDialog, answer)
 

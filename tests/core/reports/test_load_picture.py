@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.parts import lug_bracket
+from bench.parts import NO_PARTS, PARTS, lug_bracket
 from demo.load_picture import load_picture
+from volfrep.io.solid import read_solid
 from volfrep.loads.load_cases import Force, LoadCase, Support
 from volfrep.loads.load_file import read_load_cases
 from volfrep.loads.nodal_loads import nodal_case
@@ -15,7 +16,9 @@ from volfrep.loads.regions import InPlane, NearPoint
 from volfrep.reports.load_arrows import solid_body
 from volfrep.util.errors import VolfrepError
 
-LOADS = Path(__file__).resolve().parents[3] / "demo" / "bracket_loads.toml"
+DEMO = Path(__file__).resolve().parents[3] / "demo"
+LOADS = DEMO / "bracket_loads.toml"
+POUND = 4.4482216152605  # N
 
 
 def test_every_load_of_the_documented_bracket_finds_its_place():
@@ -28,6 +31,32 @@ def test_every_load_of_the_documented_bracket_finds_its_place():
         assert np.hypot(np.abs(held[:, 0]) - 70, np.abs(held[:, 2]) - 37).max() < 5.26
         loaded = body.nodes[laid.loads.any(axis=1)]
         assert np.hypot(loaded[:, 0], loaded[:, 1] - 42).max() < 10.01
+
+
+def test_the_loads_of_the_ge_bracket_are_those_of_its_challenge():
+    """8,000 lbf up, 8,500 out, 9,500 at 42 degrees between them, a torque of 5,000 lbf in."""
+    loads = read_load_cases(DEMO / "ge_bracket_loads.toml")
+    assert loads.material.yield_stress == 903.0
+    up, out, between, torque = (case.loads[0] for case in loads.cases)
+    assert up.force == pytest.approx((0, 8000 * POUND, 0))
+    assert out.force == pytest.approx((0, 0, 8500 * POUND))
+    angle = np.radians(42)
+    wanted = 9500 * POUND * np.array([0, np.cos(angle), np.sin(angle)])
+    assert between.force == pytest.approx(wanted, rel=1e-4)
+    assert torque.moment == pytest.approx((0, 5000 * 25.4 * POUND, 0))
+
+
+@pytest.mark.skipif(not PARTS.is_dir(), reason=NO_PARTS)
+def test_the_ge_bracket_is_held_in_its_bolts_holes_and_loaded_in_its_eyes():
+    """By the area of the walls of four holes 7.85 mm deep, and of two eyes 6.35 mm wide."""
+    bracket = read_solid(PARTS / "ge_bracket.stl")
+    case = read_load_cases(DEMO / "ge_bracket_loads.toml", bracket).cases[0]
+    one, two, three = bracket.vertices[bracket.triangles].swapaxes(0, 1)
+    area = 0.5 * np.linalg.norm(np.cross(two - one, three - one), axis=1)
+    held = area[case.supports[0].region.facets(bracket, 1e-3)].sum()
+    loaded = area[case.loads[0].region.facets(bracket, 1e-3)].sum()
+    assert held == pytest.approx(2 * np.pi * 7.85 * (3 * 5.156 + 5.334), rel=0.01)
+    assert loaded == pytest.approx(2 * np.pi * 9.557 * 2 * 6.35, rel=0.01)
 
 
 @pytest.mark.slow

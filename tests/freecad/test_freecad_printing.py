@@ -10,6 +10,7 @@ from freecad_volfrep.features.reports.build_direction import (
     set_build_direction,
     turn_part,
 )
+from freecad_volfrep.features.reports.print_check import make_print_check
 from volfrep.util.errors import VolfrepError
 
 
@@ -57,4 +58,11 @@ def test_print_checks_look_along_the_build_direction(doc, infill):
     assert len(made) == 1
     assert made[0].BuildDirection == App.Vector(1, 0, 0)
     assert set_build_direction(infill, (0.0, 1.0, 0.0)) == made
-    assert made[0].BuildDirection == App.Vector(0, 1, 0)
+    assert made[0].BuildDirection == infill.BuildDirection == App.Vector(0, 1, 0)
+
+
+def test_the_build_direction_turns_with_the_infill(doc, infill):
+    infill.Placement = App.Placement(App.Vector(0, 0, 50), App.Rotation(App.Vector(1, 0, 0), 90))
+    set_build_direction(infill, (0.0, 0.0, 1.0))
+    assert infill.BuildDirection.isEqual(App.Vector(0, 1, 0), 1e-12)
+    assert make_print_check(doc, infill).BuildDirection.isEqual(App.Vector(0, 0, 1), 1e-12)

@@ -38,6 +38,7 @@ from driving import (
     slow,
     start_answer,
     toolbar_button,
+    type_into,
     type_value,
     view_3d,
     wait_until,
@@ -217,7 +218,7 @@ def size_as_printed(doc, obj):
 
 def fcc():
     """A beam of FCC cells built along itself, of which those struts lie flat that go across."""
-    return loaded(CellType="FCC", BuildDirection=App.Vector(1, 0, 0))
+    return loaded(CellType="FCC")
 
 
 @slow
@@ -227,6 +228,15 @@ def size_for_printing(doc, obj):
     tick, said = part("ForPrint", QtGui.QCheckBox), part("Building", QtGui.QLabel)
     check("it needs a process", not tick.isEnabled() and "No process" in said.text(), said.text())
     choose("PrintProcess", "LPBF", lambda: obj.PrintProcess)
+    way = part("BuildDirection", QtGui.QLineEdit)
+    check("built along z at first", way.text() == "0, 0, 1", way.text())
+    for wrong in ("0,0,0", "up"):
+        type_into(way, wrong)
+        check("what is no direction is said", wait_until(lambda w=wrong: w in part("Said").text()))
+        check("and is not taken", wait_until(lambda: way.text() == "0, 0, 1"), way.text())
+    type_into(way, "1,0,0")
+    check("a direction is the infill's", wait_until(lambda: obj.BuildDirection.x == 1.0))
+    check("and what was wrong is not said any more", not part("Said").text())
     wanted = "LPBF, built along x: struts from 0.6 mm thick and 45 degrees steep"
     check("whose limits are told", wait_until(lambda: wanted in said.text()), said.text())
     check("and is not asked for by itself", tick.isEnabled() and not tick.isChecked())
@@ -732,6 +742,7 @@ def end_what_is_made_ahead(doc, obj):
             end()
             check("it is ended", wait_until(lambda: ahead()[0].is_cancelled))
             check("and over", wait_until(lambda: ahead()[0].wait(0.0)))
+            check("the panel is gone", wait_until(lambda: sizing_panel() is None))
     finally:
         Engines.begin = begin
 

@@ -792,7 +792,11 @@ def click_item(view, item):
 
 def type_value(name, text):
     """Really type over what is in one of the panel's fields."""
-    field = panel_part(name)
+    type_into(panel_part(name), text)
+
+
+def type_into(field, text):
+    """Really type over what is in a field."""
     click(field)
     holders = [field, *field.findChildren(QtGui.QWidget)]
     wait_until(lambda: QtGui.QApplication.focusWidget() in holders)

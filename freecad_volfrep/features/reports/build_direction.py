@@ -78,7 +78,9 @@ def turn_part(obj: App.DocumentObject, found: Orientations, chosen: Orientation)
 def set_build_direction(
     infill: App.DocumentObject, up: tuple[float, float, float]
 ) -> list[App.DocumentObject]:
-    """Let the print checks of an infill be of a build direction; one is made where there is none.
+    """Let an infill and its print checks be built along a direction of the document's coordinates.
+
+    A print check is made where there is none.
 
     Returns:
         The print checks; ``doc.recompute()`` computes them.
@@ -86,13 +88,15 @@ def set_build_direction(
     Raises:
         VolfrepError: that is no lattice infill.
     """
+    from freecad_volfrep.bridge.beams import place_in_document
+
     checks = [
         one
         for one in infill.Document.Objects
         if isinstance(getattr(one, "Proxy", None), PrintCheck) and one.Infill == infill
     ]
-    if not checks:
-        return [make_print_check(infill.Document, infill, build_direction=up)]
+    made = [] if checks else [make_print_check(infill.Document, infill, build_direction=up)]
+    infill.BuildDirection = place_in_document(infill).Rotation.inverted().multVec(App.Vector(*up))
     for one in checks:
         one.BuildDirection = App.Vector(*up)
-    return checks
+    return made or checks

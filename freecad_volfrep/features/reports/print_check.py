@@ -138,7 +138,7 @@ def make_print_check(
     doc: App.Document,
     infill: App.DocumentObject,
     process: str | None = None,
-    build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0),
+    build_direction: tuple[float, float, float] | None = None,
 ) -> App.DocumentObject:
     """Add a print check of a lattice infill; ``doc.recompute()`` then computes it.
 
@@ -146,16 +146,21 @@ def make_print_check(
         doc: the document that holds the infill.
         infill: a lattice infill.
         process: FFF, SLA, SLS, MJF, LPBF or EBM; None for the infill's, else FFF.
-        build_direction: from the build plate up, in the document's coordinates.
+        build_direction: from the build plate up, in the document's coordinates; None for the
+            infill's.
 
     Raises:
         VolfrepError: there is no such process, or that is no lattice infill; nothing is added.
     """
+    from freecad_volfrep.bridge.beams import place_in_document
     from volfrep.grid.inclination import unit_direction
     from volfrep.reports.processes import find_process
 
     check_infill(infill)
     name = find_process(process or process_of(infill) or "FFF").name
+    if build_direction is None:
+        turn = place_in_document(infill).Rotation
+        build_direction = tuple(turn.multVec(infill.BuildDirection))
     unit_direction(build_direction)
     obj = doc.addObject("Mesh::FeaturePython", "PrintCheck")
     PrintCheck(obj)

@@ -30,6 +30,8 @@ from .curve_editor import CurveEditor
 #: What the files of a field hold.
 POINTS = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Points and values")
 MATERIAL = QT_TRANSLATE_NOOP("VolfrepTaskPanel", "Material")
+#: A direction of the cell.
+OF_CELL = "StiffnessDirection"
 #: What the list of materials holds beside their names.
 ENTRIES = marked("App::Property", "None", "Custom", "Of the solid")
 #: What a panel calls properties whose names, which documents keep, say it less well.
@@ -139,7 +141,7 @@ class PropertyFields:
         if name in UNITS:
             return self._number_field(name)
         if kind == "App::PropertyVector":
-            way = QtWidgets.QLineEdit(direction_text(getattr(self._obj, name)))
+            way = QtWidgets.QLineEdit(direction_text(name, getattr(self._obj, name)))
             way.editingFinished.connect(lambda: self._set_direction(name, way.text()))
             return way
         spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
@@ -209,7 +211,7 @@ class PropertyFields:
             field.show_path(value)
         elif isinstance(field, QtWidgets.QLineEdit):
             is_way = self._obj.getTypeIdOfProperty(name) == "App::PropertyVector"
-            field.setText(direction_text(value) if is_way else value)
+            field.setText(direction_text(name, value) if is_way else value)
         else:
             is_plain = name in UNITS or isinstance(field, QtWidgets.QSpinBox)
             value = SHOWN.get(name, 1.0) * number_of(self._obj, name)
@@ -243,7 +245,10 @@ class PropertyFields:
     def _set_direction(self, name: str, text: str) -> None:
         """Take a direction over; what is none is said, and the last one shown again."""
         try:
-            self._setter(name)(App.Vector(*read_direction(text)))
+            way = App.Vector(*read_direction(text))
+            if not way.Length:
+                raise ValueError
+            self._setter(name)(way)
         except ValueError:
             self._refused(
                 name,
@@ -305,11 +310,11 @@ def _files(name: str) -> str:
     return f"{translate('VolfrepTaskPanel', POINTS)} ({suffixes})"
 
 
-def direction_text(way: App.Vector) -> str:
-    """A direction as the panel's field shows and takes it."""
+def direction_text(name: str, way: App.Vector) -> str:
+    """A direction as the panel's field shows and takes it; of a cell as crystals have them."""
     numbers = tuple(way)
     for short in ("100", "110", "111"):
-        if numbers == read_direction(short):
+        if name == OF_CELL and numbers == read_direction(short):
             return short
     return ", ".join(f"{number:g}" for number in numbers)
 

@@ -428,7 +428,7 @@ class TaskPanel:
     def _picked(self, name: str) -> None:
         """Show what was picked in its field too, if it has one."""
         if name in self._rows:
-            self._rows[name][1].setText(direction_text(getattr(self._obj, name)))
+            self._rows[name][1].setText(direction_text(name, getattr(self._obj, name)))
         self._value_changed(name)
 
     def _value_changed(self, name: str) -> None:

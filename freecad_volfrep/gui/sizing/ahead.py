@@ -28,24 +28,14 @@ class Ahead:
     """The preparation of a sizing, which waits for it; nobody is told of what goes wrong in it.
 
     The sizing meets that again, and tells it. Values that change meanwhile cost the time it took.
-
-    Args:
-        doc: the infill's document, with which it ends.
     """
 
-    def __init__(self, doc: App.Document) -> None:
-        self._doc = doc
-        App.addDocumentObserver(self)
+    def __init__(self) -> None:
         self._engines = engines()
         self._changing = Lock()
         self._is_over = False
         self._running: Running = self._engines.warm(SIZING)
         self._made_of: tuple[TriangleMesh, str] | None = None
-
-    def slotDeletedDocument(self, doc: App.Document) -> None:  # noqa: N802
-        """Called by FreeCAD: its panel may stay."""
-        if doc == self._doc:
-            self.cancel()
 
     def begin(self, obj: App.DocumentObject, goal: Callable[[], Goal], for_print: bool) -> None:
         """Make what an infill needs as it is now."""
@@ -85,13 +75,8 @@ class Ahead:
         return None
 
     def cancel(self) -> None:
-        """It is not wanted any more."""
+        """It is not wanted any more: the panel is closed."""
         with self._changing:
             self._is_over = True
         if self._made_of is not None:
             self._running.cancel()
-
-    def end(self) -> None:
-        """The panel is closed."""
-        App.removeDocumentObserver(self)
-        self.cancel()

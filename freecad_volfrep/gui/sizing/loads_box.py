@@ -171,6 +171,12 @@ class LoadsBox(QtWidgets.QGroupBox):
         if self._kind:
             self._pick("")
 
+    def forget(self) -> None:
+        """Pick no more, and leave the document alone, which is gone."""
+        if self._kind:
+            Gui.Selection.removeObserver(self)
+            self._kind = ""
+
     def addSelection(self, *_: Any) -> None:  # noqa: N802
         """Called by FreeCAD, which is not done with it yet."""
         held_down = QtWidgets.QApplication.keyboardModifiers()

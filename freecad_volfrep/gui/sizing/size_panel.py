@@ -27,7 +27,7 @@ from freecad_volfrep.features.sizing.sizing import (
 )
 from freecad_volfrep.gui.colours.colour_dock import close_struts, open_struts
 from freecad_volfrep.gui.jobs.updating import begin_update, show_mesh
-from freecad_volfrep.gui.panel.property_fields import PropertyFields, label_of
+from freecad_volfrep.gui.panel.property_fields import PropertyFields, direction_text, label_of
 from freecad_volfrep.gui.qt import OK_CANCEL, QtCore, QtWidgets
 from freecad_volfrep.gui.widgets.controls import Message, push_button, table_of_rows
 from freecad_volfrep.gui.widgets.panel_manners import (
@@ -158,6 +158,7 @@ class SizePanel:
         self._steps: list[tuple[str, ...]] = []
         self._outcome: Outcome | None = None
         self._is_open = True
+        App.addDocumentObserver(self)
         close_struts(obj)
         self.form = self._build(first_numbers(obj))
         self._timer = QtCore.QTimer(self.form)
@@ -165,7 +166,7 @@ class SizePanel:
         self._show_fields()
         # Once FreeCAD has put the panel up.
         QtCore.QTimer.singleShot(0, self._begin_loads)
-        self._ahead = Ahead(self._doc)
+        self._ahead = Ahead()
         QtCore.QTimer.singleShot(0, self._begin_ahead)
 
     def getStandardButtons(self) -> int:  # noqa: N802
@@ -338,18 +339,19 @@ class SizePanel:
         return form
 
     def _material_box(self) -> Any:
-        """Material and process, which are the infill's own."""
+        """Material, process and build direction, which are the infill's own."""
         box = QtWidgets.QGroupBox(translate("App::Property", "Material"))
         rows = QtWidgets.QFormLayout(box)
         rows.setContentsMargins(6, 4, 6, 4)
         rows.setRowWrapPolicy(QtWidgets.QFormLayout.WrapLongRows)
-        made = PropertyFields(self._obj, self._made_of, lambda _, text: self._say(text, wrong=True))
-        for name in ("PrintMaterial", "PrintProcess"):
+        made = PropertyFields(self._obj, self._made_of, self._refuse)
+        for name in ("PrintMaterial", "PrintProcess", "BuildDirection"):
             field = made.field(name)
             field.setObjectName(name)
             field.setAccessibleName(label_of(name))
             rows.addRow(QtWidgets.QLabel(label_of(name)), field)
             self._lists.append(field)
+        field.setToolTip(translate("App::Property", "From the build plate up"))
         self._add_printed(rows)
         self._for_print = _switch(
             "ForPrint",
@@ -358,7 +360,7 @@ class SizePanel:
             translate(
                 "VolfrepSizePanel",
                 "Struts and skin no thinner than the process prints, and none flatter as far as "
-                "limits allow. The build direction is the infill's property BuildDirection",
+                "limits allow",
             ),
         )
         rows.addRow(self._for_print)
@@ -366,6 +368,12 @@ class SizePanel:
         rows.addRow(self._building)
         self._show_building()
         return box
+
+    def _refuse(self, name: str, text: str) -> None:
+        """Say what was wrong with what was typed, and show what holds again."""
+        way = self.form.findChild(QtWidgets.QLineEdit, name)
+        way.setText(direction_text(name, getattr(self._obj, name)))
+        self._say(text, wrong=True)
 
     def _show_building(self) -> None:
         """What the infill's process asks for, or that none is chosen."""
@@ -465,6 +473,7 @@ class SizePanel:
 
     def _made_of(self, name: str) -> None:
         """Struts no thinner than the process prints; its tables of printed diameters."""
+        self._say("")
         self._offer_tables()
         self._show_building()
         first = first_numbers(self._obj)
@@ -551,11 +560,26 @@ class SizePanel:
         if self._is_open:
             bring_into_sight(self._said)
 
+    def slotDeletedDocument(self, doc: App.Document) -> None:  # noqa: N802
+        """Called by FreeCAD: the panel goes with its document, once FreeCAD is done with that."""
+        if doc == self._doc and self._is_open:
+            self._loads.forget()
+            self._end()
+            QtCore.QTimer.singleShot(0, self._leave)
+
     def _close(self) -> None:
-        self._is_open = False
-        self._ahead.end()
-        self._timer.stop()
+        self._end()
+        App.removeDocumentObserver(self)
         close_panel(self._doc)
+
+    def _leave(self) -> None:
+        App.removeDocumentObserver(self)
+        Gui.Control.closeDialog()
+
+    def _end(self) -> None:
+        self._is_open = False
+        self._ahead.cancel()
+        self._timer.stop()
 
 
 def _step_in_words(step: tuple[str, ...]) -> tuple[str, ...]:

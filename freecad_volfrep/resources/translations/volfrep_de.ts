@@ -4705,8 +4705,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Streben</translation>
     </message>
     <message>
-      <source>Struts and skin no thinner than the process prints, and none flatter as far as limits allow. The build direction is the infill's property BuildDirection</source>
-      <translation>Streben und Haut nicht dünner, als das Verfahren druckt, und keine Strebe flacher, soweit die Grenzen es erlauben. Die Baurichtung ist die Eigenschaft BuildDirection der Füllung</translation>
+      <source>Struts and skin no thinner than the process prints, and none flatter as far as limits allow</source>
+      <translation>Streben und Haut nicht dünner, als das Verfahren druckt, und keine Strebe flacher, soweit die Grenzen es erlauben</translation>
     </message>
     <message>
       <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>

@@ -4705,8 +4705,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Aste</translation>
     </message>
     <message>
-      <source>Struts and skin no thinner than the process prints, and none flatter as far as limits allow. The build direction is the infill's property BuildDirection</source>
-      <translation>Aste e guscio non più sottili di quanto il processo stampa, e nessuna asta più piatta, per quanto i limiti permettono. La direzione di costruzione è la proprietà BuildDirection del riempimento</translation>
+      <source>Struts and skin no thinner than the process prints, and none flatter as far as limits allow</source>
+      <translation>Aste e guscio non più sottili di quanto il processo stampa, e nessuna asta più piatta, per quanto i limiti permettono</translation>
     </message>
     <message>
       <source>Struts of {mass:.4g} g hold all limits; no one radius between these does.</source>

@@ -60,13 +60,13 @@ class WithoutSlivers(NamedTuple):
     Attributes:
         mesh: without the vertices that went.
         new: (m,) bool, which of its triangles were not there, or elsewhere.
-        was: (m,) which one each was, -1 for these.
+        origin: (m,) which one each was, or is in the place of.
         number: (n,) of each vertex that there was, if it is in use; None: as it was.
     """
 
     mesh: TriangleMesh
     new: Bools
-    was: Ints
+    origin: Ints
     number: NDArray[np.int32] | None
 
 
@@ -81,7 +81,7 @@ def without_slivers(
     if not len(thin):
         return WithoutSlivers(mesh, *_nothing_new(mesh), None)
     rest = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
-    stayed, new, was = rest.compared(mesh)
+    stayed, new, origin = rest.compared(mesh)
     count = len(mesh.vertices)
     # Vertices at the border of what was looked at are those of other triangles, too, and stay.
     there = vertices_of(rest.piece, count)
@@ -92,7 +92,7 @@ def without_slivers(
     vertices[number[rest.stay[some]]] = rest.places[some]
     triangles = rest.joined(mesh.triangles, stayed)
     np.take(number, triangles, out=triangles, mode="clip")
-    return WithoutSlivers(TriangleMesh(vertices, triangles), new, was, number)
+    return WithoutSlivers(TriangleMesh(vertices, triangles), new, origin, number)
 
 
 def without_slivers_at(
@@ -134,9 +134,10 @@ def _rebuilt(mesh: TriangleMesh, thin: Ints, tolerance: float) -> tuple[Triangle
     if not len(thin):
         return mesh, *_nothing_new(mesh)
     rest = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
-    stayed, new, was = rest.compared(mesh)
+    stayed, new, origin = rest.compared(mesh)
     points = mesh.vertices.copy()
     points[rest.stay] = rest.places
+    was = np.where(new, -1, origin)
     return TriangleMesh(points, rest.joined(mesh.triangles, stayed)), new, was
 
 
@@ -210,7 +211,7 @@ class _Rest(NamedTuple):
         return result
 
     def compared(self, mesh: TriangleMesh) -> tuple[Ints, Bools, Ints]:
-        """The triangles of the mesh that stayed; of all `joined` ones, which are new and were."""
+        """The triangles of the mesh that stayed; which of all are new, and what each was."""
         untouched = np.ones(len(mesh.triangles), bool)
         untouched[self.old] = False
         stayed = np.flatnonzero(untouched)
@@ -218,8 +219,7 @@ class _Rest(NamedTuple):
         moved[self.stay] = _differ(self.places, mesh.vertices[self.stay])
         was = self.old[self.origin]
         new = _differ(self.piece, mesh.triangles[was]) | touching(moved, self.piece)
-        was = np.concatenate([stayed, np.where(new, -1, was)])
-        return stayed, np.pad(new, (len(stayed), 0)), was
+        return stayed, np.pad(new, (len(stayed), 0)), np.concatenate([stayed, was])
 
 
 def _without(

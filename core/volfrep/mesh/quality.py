@@ -248,11 +248,7 @@ def quality_after_moves(
     if not float((way * (side + 2.0 * way) ** 2).sum()) < least:
         return None
     centre = old.mean(axis=0)
-    shared, backend = LocalArray(triangles), ParallelBackend()
-    was, now = (
-        _sizes(LocalArray(np.ascontiguousarray(each.T)), centre, shared, len(triangles), backend)
-        for each in (old, new)
-    )
+    was, now = (sizes(TriangleMesh(each, triangles), centre) for each in (old, new))
     return replace(
         quality,
         degenerate_triangles=quality.degenerate_triangles + now[2] - was[2],
@@ -287,6 +283,23 @@ def shape_statistics(mesh: TriangleMesh) -> ShapeStatistics:
         area_mean=float(mean[2]),
         area_deviation=float(deviation[2]),
     )
+
+
+def sizes(
+    mesh: TriangleMesh, centre: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], float, int, int]:
+    """What some triangles come to.
+
+    Args:
+        mesh: any, of one triangle or more.
+        centre: (3,) mm.
+
+    Returns:
+        (m,) signed volumes of their cones from the centre, mm3; the area of all, mm2; how many are
+        degenerate, as of `Quality`; and how many name a vertex twice.
+    """
+    columns, triangles = np.ascontiguousarray(mesh.vertices.T), LocalArray(mesh.triangles)
+    return _sizes(LocalArray(columns), centre, triangles, len(mesh.triangles), ParallelBackend())
 
 
 def _sizes(

@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 Number = TypeVar("Number", np.float64, np.float32, np.int32)
 
+#: The least and the greatest coordinates are found of so many points in a row.
+BOX_POINTS = 1 << 8
+
 
 @dataclass(frozen=True, eq=False)
 class TriangleMesh:
@@ -75,9 +78,15 @@ def box_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """(2, 3) lowest and highest corner of the box about (n, 3) points; zeros for none."""
     if not len(points):
         return np.zeros((2, 3))
-    # A column at a time: numpy is slow at reducing many short rows.
-    columns = [points[:, k] for k in range(3)]
-    return np.array([[c.min() for c in columns], [c.max() for c in columns]])
+    # Many points a row first: numpy is slow at reducing many short rows.
+    whole = len(points) // BOX_POINTS * BOX_POINTS
+    rows, found = points[:whole].reshape(-1, 3 * BOX_POINTS), []
+    for end in (np.minimum, np.maximum):
+        left = points[whole:]
+        if whole:
+            left = np.concatenate([left, end.reduce(rows, axis=0).reshape(-1, 3)])
+        found.append(end.reduce(left, axis=0))
+    return np.array(found)
 
 
 def triangle_boxes(

@@ -111,15 +111,17 @@ class Looks:
         """The same, with so many triangles before and after them of which nothing is known."""
         return Looks(np.pad(self.marks, (before, after)), self.step)
 
-    def rebuilt(self, was: Ints, beside: Ints) -> Looks:
+    def rebuilt(self, origin: Ints, new: Bools, beside: Ints) -> Looks:
         """The same, after some went and others came.
 
         Args:
-            was: (m,) which one each triangle was, -1 for new ones.
+            origin: (m,) which one each triangle was, or is in the place of.
+            new: (m,) bool, those that were not there, or elsewhere.
             beside: those that touch new ones, at whose edges the surface may turn otherwise now.
         """
-        marks = np.where(was < 0, np.uint8(0), self.marks[was])
+        marks = self.marks[origin]
         marks[beside] &= np.uint8(APART)
+        marks[new] = 0
         return Looks(marks, self.step)
 
     @property

@@ -17,6 +17,7 @@ import numpy as np
 
 from ..mesh.booleans import to_library
 from ..mesh.float32_repair import shortest_edge
+from ..mesh.open_shells import OpenShells, joined_shells
 from ..mesh.topology import corners_among, pieces_of, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, rows_where
 from ..process.cluster import Watch
@@ -89,7 +90,7 @@ def trim(
     inner = InnerOctants(lattice, kept.inside) if kept.inside.any() else None
     groups = group_octants(lattice, domain, monitor, precision)
     found = _join_groups(groups, inner, cavity, monitor, executor, ahead)
-    trimmed = TrimmedSurface(found.mesh, inner, found.looks, found.at_rim)
+    trimmed = TrimmedSurface(found.mesh, inner, found.looks, found.at_rim, found.shells)
     if not trimmed.is_joined:
         # The Boolean has taken out vertices at the caps, as it may do between tiny triangles: let
         # all the octants go through it, which takes longer.
@@ -306,6 +307,7 @@ class Joined:
         loose: pieces that are open where no other one nor the rim follows.
         looks: what is known of its triangles; None: nothing.
         at_rim: (k,) its vertices at the rim, -1 for none; None: not known.
+        shells: of it; None: not known.
     """
 
     mesh: TriangleMesh
@@ -313,6 +315,7 @@ class Joined:
     loose: Ints
     looks: Looks | None = None
     at_rim: Ints | None = None
+    shells: OpenShells | None = None
 
 
 def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
@@ -361,7 +364,31 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     at_rim = np.where(row < 0, -1, number[seam[chosen[row]]]).astype(np.int64)
     open_ = _open(mesh, np.concatenate(some), number[seam[chosen]], at_rim[row >= 0])
     loose.append(np.searchsorted(begin, open_, "right") - 1)
-    return Joined(mesh, on_boundary, np.unique(np.concatenate(loose)), _known_looks(pieces), at_rim)
+    sound = not any(map(len, loose))
+    return Joined(
+        mesh, on_boundary, np.unique(np.concatenate(loose)), _known_looks(pieces), at_rim,
+        _join_shells(pieces, cluster) if sound else None,
+    )  # fmt: skip
+
+
+def _join_shells(pieces: Sequence[Piece], cluster: Ints) -> OpenShells | None:
+    """The shells of pieces that are joined.
+
+    Args:
+        pieces: joined edge for edge.
+        cluster: (k,) a number for each vertex at their rims; those of one number are one.
+    """
+    parts = [piece.shells for piece in pieces if piece.shells is not None]
+    if len(parts) < len(pieces):
+        return None
+    begin = np.cumsum([0] + [len(part.volume) for part in parts])
+    each = [
+        part.at(piece.rim, piece.mesh) + k
+        for piece, part, k in zip(pieces, parts, begin, strict=False)
+    ]
+    order = np.argsort(cluster, kind="stable")
+    shell, same = np.concatenate(each)[order], np.diff(cluster[order]) == 0
+    return joined_shells(parts, shell[:-1][same], shell[1:][same])
 
 
 def _known_looks(pieces: Sequence[Piece]) -> Looks | None:

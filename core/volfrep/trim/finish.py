@@ -57,16 +57,20 @@ def tidy(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimmed
     """
     looks = surface.looks
     unsound = looks.unsound if looks and looks.step * STEPS == precision else None
-    smooth, new, was, number = without_slivers(surface.mesh, precision, unsound)
+    smooth, new, origin, number = without_slivers(surface.mesh, precision, unsound)
     renumber = None if number is None else number.take
     release_memory()
     if not new.any():
-        return surface.on(smooth, surface.looks and surface.looks.of(was), renumber)
+        looks, shells = looks and looks.of(origin), surface.shells and surface.shells.of(origin)
+        return surface.on(smooth, looks, renumber, shells)
     # What lies about the new triangles is little, and is all that is looked at.
     rows = np.flatnonzero(new | about(smooth, new))
     fresh = vertices_of(smooth.triangles[new], len(smooth.vertices))
     beside = rows[touching(fresh, smooth.triangles[rows])]
-    result = surface.on(smooth, surface.looks and surface.looks.rebuilt(was, beside), renumber)
+    looks, shells = looks and looks.rebuilt(origin, new, beside), surface.shells
+    if shells is not None and number is not None:
+        shells = shells.rebuilt(surface.mesh, smooth, origin, new, beside, number)
+    result = surface.on(smooth, looks, renumber, shells)
     part, among = TriangleMesh(smooth.vertices, smooth.triangles[rows]), new[rows]
     if surface.octants is not None:
         near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])

@@ -21,6 +21,7 @@ from ..lattice.assembly import facets, neighbour_missing
 from ..lattice.placed_octants import Placed
 from ..mesh.booleans import from_library, to_library
 from ..mesh.float32_repair import STEPS, slivers, without_inner_slivers
+from ..mesh.open_shells import OpenShells, open_shells
 from ..mesh.topology import open_vertices, touching, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, compacted, empty_mesh
 from ..spatial.rays import inside_points
@@ -82,6 +83,7 @@ class Piece:
         work: what was done, counted.
         defect: what is not a solid; empty otherwise.
         looks: what is known of its triangles; None: nothing.
+        shells: of the mesh; None: not known.
         needs_solid: nothing was cut, for the wall has to be a solid for that.
     """
 
@@ -91,6 +93,7 @@ class Piece:
     work: dict[str, int] = field(default_factory=dict)
     defect: str = ""
     looks: Looks | None = None
+    shells: OpenShells | None = None
     needs_solid: bool = False
 
     @property
@@ -132,7 +135,7 @@ def cut_group(group: Group, monitor: Monitor | None = None) -> Piece:
 
 
 def _look_at_piece(piece: Piece, group: Group, monitor: Monitor) -> Piece:
-    """The piece with what its own triangles tell of slivers, of folds and of facets that cross."""
+    """The piece with its shells and what its triangles tell of slivers, folds and crossings."""
     mesh, placed, step = piece.mesh, group.placed, group.precision / STEPS
     layout, far = placed.layout, CLEAR_STEPS * step
     half = 0.5 * layout.grid.cell_size
@@ -169,7 +172,7 @@ def _look_at_piece(piece: Piece, group: Group, monitor: Monitor) -> Piece:
     sound = ~touching(vertices_of(piece.rim, len(mesh.vertices)), mesh.triangles)
     sound[slivers(mesh, group.precision)] = False
     looks.marks[sound] |= SOUND
-    return replace(piece, looks=looks)
+    return replace(piece, looks=looks, shells=monitor.call(lambda: open_shells(mesh)))
 
 
 def _tidy(piece: Piece, precision: float, monitor: Monitor) -> Piece:

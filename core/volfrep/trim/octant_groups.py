@@ -21,6 +21,7 @@ import numpy as np
 from ..lattice.assembly import Layout
 from ..mesh import remesh
 from ..mesh.booleans import from_library, to_library
+from ..mesh.open_shells import open_shells
 from ..mesh.topology import among_edges, corners_among, edge_keys, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, corners_at, triangle_boxes
 from ..spatial.self_intersection import meeting_boxes
@@ -98,7 +99,8 @@ class Groups:
         """The triangles of the wall that no octant reaches, seen from the material."""
         triangles = self.boundary.triangles[self.triangle < 0, ::-1]
         mesh = compact(TriangleMesh(self.boundary.vertices, triangles))
-        return Piece(mesh, np.ones(len(triangles), bool), rim_of(mesh))
+        shells = open_shells(mesh)
+        return Piece(mesh, np.ones(len(triangles), bool), rim_of(mesh), shells=shells)
 
     def each(
         self, which: Ints, cavity: bool, monitor: Monitor, *, closed: bool = False

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..lattice.assembly import facet_blocks
+from ..mesh.open_shells import ORIGIN, OpenShells
 from ..mesh.quality import Inspection, Quality, inspect
 from ..mesh.topology import corners_among, pieces_of
 from ..mesh.triangle_mesh import TriangleMesh, box_of
@@ -52,18 +53,21 @@ class TrimmedSurface:
         looks: what is known of the mesh's triangles; None: nothing.
         rim_guess: (k,) the mesh's vertices that are probably those at the octants' rim, or those
             that are known of them; None: not known.
+        shells: of the mesh, which is open nowhere but at the rim; None: not known.
     """
 
     mesh: TriangleMesh
     octants: InnerOctants | None = None
     looks: Looks | None = None
     rim_guess: Ints | None = None
+    shells: OpenShells | None = None
 
     def on(
         self,
         mesh: TriangleMesh,
         looks: Looks | None = None,
         number: Callable[[Ints], NDArray[np.integer[Any]]] | None = None,
+        shells: OpenShells | None = None,
     ) -> TrimmedSurface:
         """The surface with another mesh, and what is known of that.
 
@@ -71,13 +75,14 @@ class TrimmedSurface:
             mesh: in place of its own.
             looks: of the mesh.
             number: gives the numbers that vertices of its own have there; None: the same.
+            shells: of the mesh.
         """
         if self.octants is None:
-            return TrimmedSurface(mesh, None, looks)
+            return TrimmedSurface(mesh, None, looks, None, shells)
         guess = self.__dict__.get("_rim_rows", self.rim_guess)
         if guess is not None and number is not None:
             guess = number(guess).astype(np.int64)
-        return TrimmedSurface(mesh, self.octants, looks, guess)
+        return TrimmedSurface(mesh, self.octants, looks, guess, shells)
 
     @property
     def triangles(self) -> int:
@@ -164,29 +169,34 @@ class TrimmedSurface:
         Raises:
             RuntimeError: the parts do not fit together.
         """
-        found = inspect(self.mesh, monitor)
-        inner = self.octants
+        inner, shells = self.octants, self.shells
+        if shells is None:
+            found = inspect(self.mesh, monitor)
+        else:
+            found = shells.inspection(self.mesh, 0 if inner is None else len(inner.pieces.rim))
         if inner is None:
             return JoinedInspection(found, np.zeros(len(found.volume), bool))
         if not self.is_joined:
             raise RuntimeError("the octants inside do not fit to what the wall has cut")
         pieces, cut, count = inner.pieces, found.quality, len(found.volume)
         # Two parts enclose their volume about one point only together.
-        own = pieces.volume_about(inner.lattice.motion.back(cut.bounds.mean(axis=0)))
-        shells, label = pieces_of(
+        centre = cut.bounds.mean(axis=0) if shells is None else ORIGIN
+        own = pieces.volume_about(inner.lattice.motion.back(centre))
+        both, label = pieces_of(
             found.shell[self._rim_triangles].astype(np.int64),
             count + pieces.piece_at_rim,
             count + len(own),
         )
-        both = np.concatenate([found.volume, own])
-        volume = np.bincount(label, both, minlength=shells).astype(np.float64)
+        each = np.concatenate([found.volume, own])
+        volume = np.bincount(label, each, minlength=both).astype(np.float64)
         shell = label[found.shell].astype(np.int32)
-        beyond, used = np.zeros(shells, bool), np.zeros(shells, bool)
+        beyond, used = np.zeros(both, bool), np.zeros(both, bool)
         beyond[label[count:]] = True
         used[shell] = True
         used |= beyond
         vertices = cut.vertices + inner.layout.count - len(inner.rim)
-        sound = not (cut.overused_edges or cut.misoriented_edges or _repeats(self.mesh.triangles))
+        sound = not (cut.overused_edges or cut.misoriented_edges)
+        sound &= shells is not None or not _repeats(self.mesh.triangles)
         quality = Quality(
             triangles=self.triangles,
             vertices=vertices,

@@ -169,9 +169,16 @@ SENTENCES = marked(
     "to {most} mm, {mass} g; stress and buckling are of struts thinner by {scatters} standard "
     "deviations.",
     "The skin is no thinner than {process} prints: {wall} mm.",
-    "Struts that lie flatter than {process} builds stay: {reason}. Another cell, or another build "
-    "direction, may have fewer of them.",
+    "Struts that lie flatter than {process} builds stay: {reason}.",
     "without them the limits cannot be held",
+    "Every strut lies too flat to be built, or has a free end without those, so that none is left: "
+    "choose another build direction or cell",
+    "Built along {axis} the lattice carries without flatter struts: choose that build direction "
+    "where you can.",
+    "Built along {axis} the lattice without flatter struts is {times} times as stiff for its "
+    "volume: choose that build direction where you can.",
+    "Built along none of the part's axes the cell carries without flatter struts: choose another "
+    "one, such as {cells} with its z upwards.",
     "{process} builds {degrees} degrees and more without support, and {area} mm2 of the part's "
     "outside are flatter, as at {place}: another build direction may have less.",
     "{process} builds {degrees} degrees and more without support, and {area} mm2 of ceilings "

@@ -195,7 +195,8 @@ def size(
         scatter: stress and buckling are those of struts thinner by so many standard deviations of
             that table.
         process: FFF, SLA, SLS, MJF, LPBF or EBM: struts are no thinner than it builds and, as far
-            as limits allow, none is flatter, along the parameter `build_direction`.
+            as limits allow, none is flatter, along the parameter `build_direction`; without
+            that, along the part's axis that is best for it.
         solid_places: where limits ask for more than the thickest skin that may be, the part becomes
             solid.
         unit: as of `fill`.
@@ -250,12 +251,13 @@ def size(
         solid, wanted = _read_call(part, unit, callback, spec, given, None)
         loads = _loads(loads, solid)
         wanted = dataclasses.replace(wanted, density=loads.material.density)
-        up = given.get("build_direction")
-        up = BY_NAME["build_direction"].default if up is None else up
+        asked_up = given.get("build_direction")
+        up = BY_NAME["build_direction"].default if asked_up is None else asked_up
         goal = goal_of(
             loads.material, asked, remove_thin=remove_thin, radius_list=radius_list,
             symmetry=symmetry, solid_places=solid_places,
-            printing=_printing(as_printed, scatter, up), building=_building(process, up),
+            printing=_printing(as_printed, scatter, up),
+            building=_building(process, asked_up, wanted),
         )  # fmt: skip
         if prove == "file":
             check_file_proof(goal)
@@ -286,14 +288,13 @@ def _printing(table: str | None, scatter: float, up: Any) -> Printing | None:
     return Printing(find_printed_table(table), up, float(scatter))
 
 
-def _building(process: str | None, up: Any) -> Building | None:
+def _building(process: str | None, up: Any, spec: LatticeSpec) -> Building | None:
     """How a sized part is built; None where that does not count."""
     if process is None:
         return None
-    from ..jobs.sizing import Building
-    from ..reports.processes import find_process
+    from ..jobs.sizing import building_of
 
-    return Building(find_process(process), up)
+    return building_of(process, up, spec)
 
 
 def solve(

@@ -344,10 +344,9 @@ def _building(given: argparse.Namespace, found: Specified) -> Building | None:
     """How a design is built."""
     if given.process is None:
         return None
-    from ..jobs.sizing import Building
-    from ..reports.processes import find_process
+    from ..jobs.sizing import building_of
 
-    return Building(find_process(given.process), found.build_direction)
+    return building_of(given.process, found.values.get("build_direction"), found.spec)
 
 
 def _limits(given: argparse.Namespace, form: Form) -> FileLimits:

@@ -271,7 +271,8 @@ RUN_OPTIONS = (
     RunOption(
         "process", ("size",),
         "FFF, SLA, SLS, MJF, LPBF or EBM: struts as thick and as steep to the build plate as it "
-        "builds them, where limits allow; adds its print report",
+        "builds them, where limits allow, along the part's best axis without --build-direction; "
+        "adds its print report",
         "P", GOAL_GROUP,
     ),
     RunOption(

@@ -88,7 +88,7 @@ def run_size(given: argparse.Namespace) -> int | None:
             write_points(options.radii, made.points, made.radii, "radius")
             _write_specification(options, made)
         streamed = options.form.streamed and not options.prove_file
-        streamed = streamed and options.building is None
+        streamed = streamed and made.building is None
 
         def fill(spec: LatticeSpec) -> FilledPart:
             infill = Infill(solid, spec, progress=progress, cache=cache, streamed=streamed)
@@ -97,7 +97,7 @@ def run_size(given: argparse.Namespace) -> int | None:
         part, kept = fill_within(solid, made.spec, options.limits, options.form, fill)
         report = part.result.report
         writer_of(options.form).write(part, options.output, Settings())
-        printing = None if options.building is None else _print_report(part, options)
+        printing = None if made.building is None else _print_report(part, options, made)
         if options.prove_file:
             prove_file(
                 made, part.result.mesh, loads, voxel=options.voxel, progress=progress,
@@ -127,12 +127,12 @@ def run_size(given: argparse.Namespace) -> int | None:
     return None if made.sized.holds else EXIT_NOT_HELD
 
 
-def _print_report(part: FilledPart, options: SizeOptions) -> PrintReport:
+def _print_report(part: FilledPart, options: SizeOptions, made: SizedPart) -> PrintReport:
     """The finished part held against the process that it was sized for."""
     from ..jobs.as_printed import as_printed
     from ..jobs.figures.print_check import check_print
 
-    building, struts = options.building, part.result.wireframe
+    building, struts = made.building, part.result.wireframe
     assert building is not None
     if options.printing is not None:
         struts = as_printed(struts, options.printing.table, building.build_direction).struts

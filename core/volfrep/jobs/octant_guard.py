@@ -102,8 +102,13 @@ def refuse_no_cells(active: Bools, cell_size: float, rule: str) -> None:
         )
 
 
-def refuse_no_struts(frame: Wireframe) -> None:
-    """Raise a `VolfrepError` where every strut was taken away."""
+def refuse_no_struts(frame: Wireframe, flat: int) -> None:
+    """Raise a `VolfrepError` where every strut was taken away, `flat` of them as too flat."""
+    if not len(frame.struts) and flat:
+        raise VolfrepError(
+            "Every strut lies too flat to be built, or has a free end without those, so that none "
+            "is left: choose another build direction or cell."
+        )
     if not len(frame.struts):
         raise VolfrepError(
             "Every strut has a free end or is too thin, so that none is left: keep dangling and "

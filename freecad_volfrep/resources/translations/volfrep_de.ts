@@ -4070,6 +4070,18 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Ein Ausdruck oder ein anderes Objekt bestimmt die Lage von '{label}': stattdessen das drehen.</translation>
     </message>
     <message>
+      <source>Built along none of the part's axes the cell carries without flatter struts: choose another one, such as {cells} with its z upwards.</source>
+      <translation>Entlang keiner Achse des Teils gebaut trägt die Zelle ohne flachere Streben: eine andere wählen, etwa {cells} mit z nach oben.</translation>
+    </message>
+    <message>
+      <source>Built along {axis} the lattice carries without flatter struts: choose that build direction where you can.</source>
+      <translation>Entlang {axis} gebaut, trägt das Gitter ohne flachere Streben: wenn möglich diese Baurichtung wählen.</translation>
+    </message>
+    <message>
+      <source>Built along {axis} the lattice without flatter struts is {times} times as stiff for its volume: choose that build direction where you can.</source>
+      <translation>Entlang {axis} gebaut, ist das Gitter ohne flachere Streben bei gleichem Volumen {times}-mal so steif: wenn möglich diese Baurichtung wählen.</translation>
+    </message>
+    <message>
       <source>Cancelled: other figures are those of the last finished check, if there was one.</source>
       <translation>Abgebrochen: Die anderen Werte sind die der letzten beendeten Prüfung, falls es eine gab.</translation>
     </message>
@@ -4104,6 +4116,10 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
     <message>
       <source>Every strut has a free end or is too thin, so that none is left: keep dangling and thin struts, reduce the cell size or choose the activation 'touching'.</source>
       <translation>Jede Strebe hat ein freies Ende oder ist zu dünn, so dass keine bleibt: lose und dünne Streben behalten, die Zellgröße verringern oder alle berührenden Zellen behalten.</translation>
+    </message>
+    <message>
+      <source>Every strut lies too flat to be built, or has a free end without those, so that none is left: choose another build direction or cell</source>
+      <translation>jede Strebe liegt zu flach zum Bauen oder hat ohne diese ein freies Ende, sodass keine bleibt: eine andere Baurichtung oder Zelle wählen</translation>
     </message>
     <message>
       <source>Failed: see the report view</source>
@@ -4238,8 +4254,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Streben von {diameter} mm sind dünner, als {process} druckt: mindestens {least} mm.</translation>
     </message>
     <message>
-      <source>Struts that lie flatter than {process} builds stay: {reason}. Another cell, or another build direction, may have fewer of them.</source>
-      <translation>Streben, die flacher liegen, als {process} baut, bleiben: {reason}. Eine andere Zelle oder eine andere Baurichtung hat vielleicht weniger davon.</translation>
+      <source>Struts that lie flatter than {process} builds stay: {reason}.</source>
+      <translation>Streben, die flacher liegen, als {process} baut, bleiben: {reason}.</translation>
     </message>
     <message>
       <source>The Python that goes with this FreeCAD cannot run the engine by itself: runs are done one after the other.</source>

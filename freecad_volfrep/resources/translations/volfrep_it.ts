@@ -4070,6 +4070,18 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Un'espressione o un altro oggetto dice come è disposto '{label}': ruotare quello.</translation>
     </message>
     <message>
+      <source>Built along none of the part's axes the cell carries without flatter struts: choose another one, such as {cells} with its z upwards.</source>
+      <translation>Costruita lungo nessun asse del pezzo la cella porta senza aste più piatte: sceglierne un'altra, come {cells} con z verso l'alto.</translation>
+    </message>
+    <message>
+      <source>Built along {axis} the lattice carries without flatter struts: choose that build direction where you can.</source>
+      <translation>Costruito lungo {axis}, il reticolo porta senza aste più piatte: scegliere, se possibile, questa direzione di costruzione.</translation>
+    </message>
+    <message>
+      <source>Built along {axis} the lattice without flatter struts is {times} times as stiff for its volume: choose that build direction where you can.</source>
+      <translation>Costruito lungo {axis}, il reticolo senza aste più piatte è, a pari volume, {times} volte più rigido: scegliere, se possibile, questa direzione di costruzione.</translation>
+    </message>
+    <message>
       <source>Cancelled: other figures are those of the last finished check, if there was one.</source>
       <translation>Annullato: gli altri valori sono quelli dell'ultima verifica terminata, se ce n'è stata una.</translation>
     </message>
@@ -4104,6 +4116,10 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
     <message>
       <source>Every strut has a free end or is too thin, so that none is left: keep dangling and thin struts, reduce the cell size or choose the activation 'touching'.</source>
       <translation>Ogni asta ha un'estremità libera o è troppo sottile, e non ne resta nessuna: tenere le aste libere e sottili, ridurre la dimensione delle celle o tenere tutte le celle che toccano il pezzo.</translation>
+    </message>
+    <message>
+      <source>Every strut lies too flat to be built, or has a free end without those, so that none is left: choose another build direction or cell</source>
+      <translation>ogni asta è troppo piatta per essere costruita o ha senza quelle un'estremità libera, così che non ne resta nessuna: scegliere un'altra direzione di costruzione o cella</translation>
     </message>
     <message>
       <source>Failed: see the report view</source>
@@ -4238,8 +4254,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Aste di {diameter} mm sono più sottili di quanto {process} stampi: almeno {least} mm.</translation>
     </message>
     <message>
-      <source>Struts that lie flatter than {process} builds stay: {reason}. Another cell, or another build direction, may have fewer of them.</source>
-      <translation>Le aste più piatte di quanto {process} costruisce restano: {reason}. Un'altra cella, o un'altra direzione di costruzione, può averne meno.</translation>
+      <source>Struts that lie flatter than {process} builds stay: {reason}.</source>
+      <translation>Le aste più piatte di quanto {process} costruisce restano: {reason}.</translation>
     </message>
     <message>
       <source>The Python that goes with this FreeCAD cannot run the engine by itself: runs are done one after the other.</source>

@@ -109,13 +109,14 @@ def test_the_file_of_a_sized_part_keeps_within_limits(
 
 
 def test_a_design_for_its_process_passes_the_print_check(part: Path, tmp_path: Path) -> None:
-    """And its file is made again of its specification; a cell of which all lies flat keeps all."""
+    """Along the part's best axis; and its file is made again of its specification."""
     spec, report = tmp_path / "s.toml", tmp_path / "report.json"
     more = ("--write-spec", spec, "--report", report, "--no-proof", "--steps", "3", "--safety", "2")
-    built = ("--process", "LPBF", "--build-direction", "1,0,0", "--thinnest", "0.1")
+    built = ("--process", "LPBF", "--thinnest", "0.1")
     assert size(part, *WHOLE, "--cell", "FCC", *more, *built) == 0
     told = json.loads(report.read_text(encoding="utf-8"))
     assert told["print_report"]["findings"] == []
+    assert told["print_report"]["build_direction"] == [1.0, 0.0, 0.0]
     assert told["print_report"]["thinnest_strut_mm"] >= 0.6 - 1e-6
     assert told["part"]["flat_struts_removed"] == told["sizing"]["building"]["removed"] > 0
     again = tmp_path / "again.stl"
@@ -131,6 +132,7 @@ def test_struts_that_cannot_be_spared_stay_and_are_told(part: Path, tmp_path: Pa
     told = json.loads(report.read_text(encoding="utf-8"))
     assert told["part"]["flat_struts_removed"] == 0
     assert any("flatter than LPBF builds stay" in note for note in told["sizing"]["notes"])
+    assert any("such as FCCz with its z upwards" in note for note in told["sizing"]["notes"])
     assert told["print_report"]["overhanging_share"] == pytest.approx(1.0)
 
 

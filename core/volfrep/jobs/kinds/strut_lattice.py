@@ -76,7 +76,7 @@ class StrutLattice(OctantLattice):
                 self._cell, self.cells.active, cells.cell_size, cells.origin, cells.periodic
             )
             frame = graded_wireframe(graph, self.spec.struts, self.part.placement)
-        guard.refuse_no_struts(frame)
+        guard.refuse_no_struts(frame, 0 if pruned is None else pruned.left.flat)
         return frame
 
     def octants(self, roles: OctantRoles | None) -> tuple[KeptOctants, dict[OctantKey, Octant]]:

@@ -3,7 +3,7 @@
 
 from .ahead import prepare
 from .as_it_is import solve_struts
-from .building import Building
+from .building import Building, building_of
 from .file_proof import check_file_proof, prove_file
 from .goal import GOALS, Goal, goal_of
 from .printed import Printing
@@ -19,6 +19,7 @@ __all__ = [
     "Goal",
     "Printing",
     "SizedPart",
+    "building_of",
     "check_file_proof",
     "goal_of",
     "prepare",

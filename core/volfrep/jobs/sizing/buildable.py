@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import TypeVar
 
 from ...design.spec import LatticeSpec
 from ...util.errors import VolfrepError
 from .goal import Goal
+
+_Design = TypeVar("_Design")
 
 
 def checked(goal: Goal) -> Goal:
@@ -51,3 +55,35 @@ def buildable(goal: Goal, spec: LatticeSpec) -> tuple[Goal, list[str]]:
         notes.append(f"The skin is no thinner than {process.name} prints: {process.wall:.4g} mm.")
         goal = replace(goal, skin_thinnest=process.wall)
     return goal, notes
+
+
+def without_flat_struts(
+    designed: Callable[[LatticeSpec], _Design],
+    is_wanted: Callable[[_Design], bool],
+    spec: LatticeSpec,
+    goal: Goal,
+) -> tuple[_Design, list[str]]:
+    """The design without struts that its process cannot build; with them where it does not hold.
+
+    Args:
+        designed: makes the design of a specification.
+        is_wanted: whether a design will do.
+        spec: with all struts.
+        goal: what is wanted.
+
+    Returns:
+        It, and why flat struts stay where they do.
+    """
+    building = goal.building
+    steeper = None if building is None else building.without_flat_struts(spec)
+    if building is None or steeper is None:
+        return designed(spec), []
+    try:
+        made = designed(steeper)
+        if is_wanted(made):
+            return made, []
+        reason = "without them the limits cannot be held"
+    except VolfrepError as error:
+        reason = str(error).rstrip(".")
+    stays = f"Struts that lie flatter than {building.process.name} builds stay: {reason}."
+    return designed(spec), [stays]

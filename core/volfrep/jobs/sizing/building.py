@@ -14,7 +14,7 @@ from ...design.as_printed import PrintedTable
 from ...design.spec import LatticeSpec
 from ...design.spec_parts import FlatStruts
 from ...grid.inclination import unit_direction
-from ...reports.processes import Process
+from ...reports.processes import Process, find_process
 
 
 @dataclass(frozen=True)
@@ -24,6 +24,7 @@ class Building:
     Attributes:
         process: its limits.
         build_direction: from the build plate up, of any length.
+        is_free: nobody asks for this direction: the best of the part's axes is taken for it.
 
     Raises:
         VolfrepError: the direction is none.
@@ -31,6 +32,7 @@ class Building:
 
     process: Process
     build_direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    is_free: bool = False
 
     def __post_init__(self) -> None:
         unit_direction(self.build_direction)
@@ -52,3 +54,23 @@ class Building:
             return None
         flat = FlatStruts(self.process.inclination, self.build_direction)
         return replace(spec, flat_struts=flat)
+
+
+def building_of(process: str, up: tuple[float, float, float] | None, spec: LatticeSpec) -> Building:
+    """How a part is built, as a user asks for it.
+
+    Args:
+        process: its name.
+        up: the build direction; None for that of the specification's flat struts or drain holes,
+            without which it is free.
+        spec: of the part.
+
+    Raises:
+        VolfrepError: there is no such process, or the direction is none.
+    """
+    along = spec.flat_struts or spec.drains
+    if up is None and along is not None:
+        up = along.build_direction
+    if up is None:
+        return Building(find_process(process), is_free=True)
+    return Building(find_process(process), up)

@@ -29,7 +29,10 @@ from ...util.progress import Monitor, ProgressCallback
 from ...util.showing import Shown
 from ...util.types import Floats
 from ..infill import Infill
-from .buildable import buildable, checked
+from .as_it_is import solve_struts
+from .buildable import buildable, checked, without_flat_struts
+from .building import Building
+from .directions import Along, advice, along_directions, directed
 from .goal import Goal
 from .governing import Governing, governing
 from .notes import (
@@ -104,6 +107,7 @@ class SizedPart(Shown):
         governing: which limit, in which load case, says how thick each strut is.
         skin_governing: which says how thick a sized skin is at each point of its thickness; None
             where it was not sized.
+        building: how it is built; None where that does not count.
         report: the figures.
     """
 
@@ -116,6 +120,7 @@ class SizedPart(Shown):
     even: tuple[Analysis, bool] | None
     governing: Governing
     skin_governing: Governing | None
+    building: Building | None
     report: dict[str, Any] = field(repr=False)
 
     def rows(self) -> list[tuple[str, str]]:
@@ -165,12 +170,12 @@ def size(
     monitor, cache = monitor or Monitor(progress), cache or StageCache()
     refuse_heat(loads)
     loads = with_weights(loads)
-    goal, notes = buildable(checked(goal or Goal()), spec)
+    wanted, notes = buildable(checked(goal or Goal()), spec)
     seconds = {"model": 0.0, "sizing": 0.0}
 
     def designed(spec: LatticeSpec) -> _ProvedDesign:
         start = time.perf_counter()
-        task = _prepare(solid, spec, loads, goal, monitor, cache, progress)
+        task = _prepare(solid, spec, loads, wanted, monitor, cache, progress)
         task.notes.extend(notes)
         seconds["model"] += time.perf_counter() - start
         start = time.perf_counter()
@@ -179,51 +184,34 @@ def size(
         finally:
             seconds["sizing"] += time.perf_counter() - start
 
-    made, stays = _without_flat_struts(designed, spec, goal)
+    def solved(steeper: LatticeSpec) -> Analysis:
+        return solve_struts(
+            solid, steeper, loads, printing=wanted.printing, progress=progress, cache=cache
+        )[1]
+
+    def along() -> list[Along]:
+        assert wanted.building is not None
+        return along_directions(solid, spec, wanted.building, solved)
+
+    built: list[str] = []
+    building, found = wanted.building, None
+    may_turn = building is not None and building.without_flat_struts(spec) is not None
+    if building is not None and building.is_free and may_turn:
+        found = along()
+        if found:
+            wanted, why = directed(wanted, found)
+            built.append(why)
+    made, stays = without_flat_struts(designed, lambda one: one.is_wanted, spec, wanted)
+    built += stays
+    if may_turn and made.search.sized.stopped != "cancelled":
+        built += advice(wanted, made.task.infill, found, along, bool(stays))
+    made.task.notes.extend(built)
     start = time.perf_counter()
     problem, volume = made.task.model.problem, made.search.sized.analysis.volume
     with telling_free_motions(problem):
         before = of_one_radius(problem, made.task.goal.limits, made.task.first, volume)
     seconds["sizing"] += time.perf_counter() - start
-    return _record(made.task, made.search, made.proof, before, seconds, [*notes, *stays])
-
-
-def _without_flat_struts(
-    designed: Callable[[LatticeSpec], _ProvedDesign], spec: LatticeSpec, goal: Goal
-) -> tuple[_ProvedDesign, list[str]]:
-    """The design without struts that its process cannot build; with them where it does not hold.
-
-    Args:
-        designed: makes the design of a specification.
-        spec: with all struts.
-        goal: what is wanted.
-
-    Returns:
-        It, and why flat struts stay where they do.
-    """
-    building = goal.building
-    steeper = None if building is None else building.without_flat_struts(spec)
-    if steeper is None:
-        return designed(spec), []
-    try:
-        made = designed(steeper)
-    except Cancelled:
-        raise
-    except VolfrepError as error:
-        reason = str(error).rstrip(".")
-    else:
-        sized = made.search.sized
-        if sized.holds or sized.stopped == "cancelled":
-            return made, []
-        reason = "without them the limits cannot be held"
-    whole = designed(spec)
-    assert building is not None
-    stays = (
-        f"Struts that lie flatter than {building.process.name} builds stay: {reason}. Another "
-        "cell, or another build direction, may have fewer of them."
-    )
-    whole.task.notes.append(stays)
-    return whole, [stays]
+    return _record(made.task, made.search, made.proof, before, seconds, [*notes, *built])
 
 
 @dataclass(frozen=True, eq=False)
@@ -293,6 +281,12 @@ class _ProvedDesign:
     search: _Search
     proof: dict[str, Any] | None
     ratios: StressRatios | None
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether it holds the limits, or is what there was when the user had enough."""
+        sized = self.search.sized
+        return sized.holds or sized.stopped == "cancelled"
 
     @property
     def rank(self) -> tuple[float, float]:
@@ -622,7 +616,7 @@ def _record(
         report["masses_g"]["solid"] = solid
     return SizedPart(
         graded, points, radii, search.model, search.sized, before, search.even, governed, skin,
-        report,
+        task.goal.building, report,
     )  # fmt: skip
 
 

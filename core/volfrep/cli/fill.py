@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from ..reports.report import Report
 
 #: Fewer triangles than these are cut in this process: others take longer to start.
-WORTH_WORKERS = 600_000
+WORTH_WORKERS = 1_000_000
 
 
 @contextmanager

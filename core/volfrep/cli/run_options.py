@@ -649,7 +649,7 @@ RUN_OPTIONS = (
     RunOption(
         "workers", ("fill",),
         "processes that cut the lattice at the wall (default: one a core; this one alone for "
-        "fewer than about 600,000 triangles); the file is the same with any number",
+        "fewer than about 1,000,000 triangles); the file is the same with any number",
         "N", read=int, either="who works",
     ),
     RunOption(

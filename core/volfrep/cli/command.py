@@ -19,6 +19,7 @@ from importlib import import_module
 from ..util import memory_limit
 from ..util.errors import VolfrepError
 from ..util.files import keeping_inputs
+from ..util.freed_memory import keep_freed_memory
 from ..util.threads import one_for_matrices
 from . import interrupts
 from .parser import Parser, Version, refuse_old, with_current_options
@@ -155,6 +156,7 @@ def run(arguments: Sequence[str]) -> int:
         options = make_parser(asked).parse_args(with_current_options(arguments))
         command: Command = options.command
         memory_limit.keep_within()
+        keep_freed_memory()
         if COMMANDS[asked].has_small_matrices:
             one_for_matrices()
         with keeping_inputs():

@@ -17,6 +17,7 @@ from typing import IO, Any
 
 from ..util.cache import StageCache
 from ..util.errors import VolfrepError
+from ..util.freed_memory import keep_freed_memory
 from ..util.threads import use_threads
 from .wire import receive, send
 
@@ -137,6 +138,7 @@ def serve(folder: str, threads: int, warm: tuple[str, ...]) -> None:
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what libraries print is no answer
     use_threads(threads)
+    keep_freed_memory()
     for name in warm:
         import_module(name)
     answers.write(GREETING)

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..design.spec import LatticeSpec
 from ..grid.inclination import inclinations, is_flat, unit_direction
-from ..grid.strut_graph import Wireframe
+from ..grid.strut_graph import Graph, Wireframe
 from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import inside_points
@@ -56,7 +56,8 @@ class PrintReport:
         largest_ball_mm: diameter of the largest ball that gets through the endless lattice, by the
             windows between struts that meet as well; None where the lattice is graded.
         inclinations: share of the struts' length by inclination, in classes of `CLASS` degrees.
-        overhanging_share: share of the struts' length below the process's inclination.
+        overhanging_share: share of the struts' length below the process's inclination, without
+            what it bridges (`overhanging_struts`).
         longest_overhang_mm: length in the part of the longest strut of these.
         longest_bridge_mm: the same of the struts that lie flat.
         longest_bridge_at: the middle of that one, mm.
@@ -152,8 +153,8 @@ class PrintForecast:
         narrowest_gap_mm: between struts without a common node; None where it is above
             `clearance.WIDEST_GAP` times L, or not the same everywhere (graded lattices).
         is_gap_known: whether None means that gaps are wide.
-        overhanging_share: of the struts' length, below the inclination that needs no support; 0
-            without a process.
+        overhanging_share: of the struts' length, below the inclination that needs no support and
+            not bridged; 0 without a process.
         longest_flat_mm: length of the longest strut that lies flat.
         void_mm3: volume of what a closed skin holds beside the lattice, which keeps its powder or
             resin; 0 where it is open.
@@ -228,7 +229,7 @@ def print_report(
     total = max(float(length.sum()), 1e-300)
     edges = np.arange(0, 90 + CLASS, CLASS)
     classes = np.histogram(angle, edges, weights=length)[0] / total
-    overhanging = np.where(is_flat(lattice, up, process.inclination), length, 0.0)
+    overhanging = np.where(overhanging_struts(lattice, length, up, process), length, 0.0)
     flat = np.where(angle < FLAT, length, 0.0)
     overhangs = overhanging_facets(mesh, up, process.inclination)
     report = PrintReport(
@@ -282,8 +283,10 @@ def print_forecast(
     length = np.linalg.norm(span, axis=1)
     rise = np.abs((span * up).sum(axis=1)) / np.maximum(length, 1e-300)
     angle = np.degrees(np.arcsin(np.minimum(rise, 1.0)))
-    least = 0.0 if process is None else process.inclination
-    overhanging = float(length[angle < least - 1e-9].sum()) / max(float(length.sum()), 1e-300)
+    hangs = np.zeros(len(length), bool)
+    if process is not None:
+        hangs = (angle < process.inclination - 1e-9) & ~_bridged(angle, length, process)
+    overhanging = float(length[hangs].sum()) / max(float(length.sum()), 1e-300)
     saved = max(abs(solid) - part, 0.0)
     cell = None if spec.varies else spec.kind.cube
     gap = None if cell is None else endless_gap(cell, spec.strut_radius / spec.cell_size)
@@ -299,6 +302,25 @@ def print_forecast(
         saved_g=saved * spec.density / 1000.0,
         saved_share=saved / abs(solid),
     )
+
+
+def overhanging_struts(lattice: Graph, length: Floats, up: Floats, process: Process) -> Bools:
+    """(m,) the struts at a lesser inclination than a process's, without flat ones that it bridges.
+
+    Args:
+        lattice: nodes and struts.
+        length: (m,) mm, of each strut what is to be built.
+        up: (3,) unit vector from the build plate up.
+        process: its limits.
+    """
+    bridged = _bridged(inclinations(lattice, up), length, process)
+    return is_flat(lattice, up, process.inclination) & ~bridged
+
+
+def _bridged(angle: Floats, length: Floats, process: Process) -> Bools:
+    """(m,) the struts that lie flat and are no longer than a process bridges."""
+    longest = np.inf if process.bridge is None else process.bridge + 1e-9
+    return np.asarray((angle < FLAT) & (length <= longest))
 
 
 def overhanging_facets(mesh: TriangleMesh, up: Floats, inclination: float) -> Bools:

@@ -16,6 +16,7 @@ from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
 from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.reports.printability import print_report
 from volfrep.reports.processes import find_process
 from volfrep.sizing.analysis import Limits
 from volfrep.util.cache import StageCache
@@ -33,9 +34,9 @@ def beam(flare=1.0):
     return TriangleMesh(vertices, np.array(box.faces, np.int32))
 
 
-def bent():
+def bent(force=-200.0):
     left, right = (InPlane((x, 0, 0), (1, 0, 0)) for x in (-20.0, 20.0))
-    case = LoadCase("bend", (Support(left),), (Force(right, (0, 0, -200.0)),))
+    case = LoadCase("bend", (Support(left),), (Force(right, (0, 0, force)),))
     return LoadCases(find_material("Ti-6Al-4V"), (case,))
 
 
@@ -86,6 +87,24 @@ def test_an_axis_is_taken_the_way_round_in_which_less_hangs_over():
     found = compared(beam(flare=4.0), COARSE, goal((0.0, 0.0, 2.0)))
     sides = 2 * 40.0 * np.hypot(20.0, 30.0)
     assert {one.up: one.hanging_mm2 for one in found}[0.0, 0.0, 2.0] == pytest.approx(sides)
+
+
+@pytest.mark.costly
+def test_flat_struts_that_are_bridged_go_only_where_the_design_is_lighter_without():
+    """Of FCC cells of 10 mm none is longer than FFF bridges."""
+    spec, fff = replace(SPEC, strut_radius=1.2), Building(find_process("FFF"))
+    for force, is_light in ((-20.0, True), (-2000.0, False)):
+        limit = Limits(displacement=0.1)
+        wanted = Goal(limit, building=fff)
+        part, every = (
+            size(beam(), spec, bent(force), goal, most_steps=4, prove_it=False)
+            for goal in (wanted, Goal(limit, thinnest=1.0))
+        )
+        assert (part.report["building"]["removed"] > 0) == is_light
+        assert (part.sized.analysis.volume < 0.99 * every.sized.analysis.volume) == is_light
+        assert part.report["building"]["notes"] == []
+        checked = print_report(beam(), part.model.wireframe, fff.process)
+        assert checked.overhanging_share == 0.0
 
 
 def test_a_cell_that_carries_along_no_axis_is_to_be_another_one():

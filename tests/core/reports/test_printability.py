@@ -95,6 +95,18 @@ def test_a_block_of_boxes():
     assert lower_half == pytest.approx(0.25, abs=0.06)
 
 
+def test_flat_struts_hang_over_from_where_they_are_too_long_to_bridge():
+    """Those of LPBF's 2 mm; struts at 35 degrees grow in the air, whatever their length."""
+    for size, share in ((2.0, 0.0), (2.1, 8 / 12)):
+        report = print_report(
+            samples.sphere(), cells("Box", cell_size=size, strut_radius=0.3), LPBF
+        )
+        assert report.overhanging_share == pytest.approx(share)
+        assert report.longest_bridge_mm == pytest.approx(size)
+    steep = cells("CVC", cell_size=2, strut_radius=0.3)
+    assert print_report(samples.sphere(), steep, LPBF).overhanging_share == 1.0
+
+
 def test_powder_carries_overhangs_and_is_trapped():
     made = fill(samples.box((30, 30, 30)), LatticeSpec(cell="Box", cell_size=10, shell=2))
     domain = samples.box((26, 26, 26), (2, 2, 2))

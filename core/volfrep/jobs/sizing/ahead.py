@@ -9,7 +9,7 @@ from ...mesh.triangle_mesh import TriangleMesh
 from ...util.cache import StageCache
 from ...util.progress import Monitor, ProgressCallback
 from ..infill import Infill
-from .buildable import buildable, checked
+from .buildable import buildable, checked, flat_struts
 from .goal import Goal
 from .part_model import all_struts, unloaded
 
@@ -50,7 +50,11 @@ def prepare(
     if forecast.memory_gb > MOST_MEMORY or forecast.seconds > MOST_SECONDS:
         return False
     goal = buildable(checked(goal), spec)[0]
-    steeper = None if goal.building is None else goal.building.without_flat_struts(spec)
-    wanted = all_struts(spec if steeper is None else steeper)
-    unloaded(Infill(solid, wanted, monitor=Monitor(progress), cache=cache), goal, cache)
+    monitor = Monitor(progress)
+    wanted = Infill(solid, all_struts(spec), monitor=monitor, cache=cache)
+    if goal.building is not None and flat_struts(goal.building, wanted)[1]:
+        steeper = goal.building.without_flat_struts(spec)
+        assert steeper is not None
+        wanted = Infill(solid, all_struts(steeper), monitor=monitor, cache=cache)
+    unloaded(wanted, goal, cache)
     return True

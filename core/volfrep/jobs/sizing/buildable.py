@@ -7,8 +7,14 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
+import numpy as np
+
 from ...design.spec import LatticeSpec
-from ...util.errors import VolfrepError
+from ...grid.inclination import is_flat, unit_direction
+from ...reports.printability import overhanging_struts
+from ...util.errors import Cancelled, VolfrepError
+from ..infill import Infill
+from .building import Building
 from .goal import Goal
 
 _Design = TypeVar("_Design")
@@ -57,6 +63,22 @@ def buildable(goal: Goal, spec: LatticeSpec) -> tuple[Goal, list[str]]:
     return goal, notes
 
 
+def flat_struts(building: Building, infill: Infill) -> tuple[int, int]:
+    """How many of a cell's struts lie too flat for a process, and how many it does not bridge.
+
+    Args:
+        building: how the part is built.
+        infill: the part with all its struts.
+    """
+    if building.without_flat_struts(infill.spec) is None:
+        return 0, 0
+    frame, process = infill.struts, building.process
+    ends, up = frame.nodes[frame.struts], unit_direction(building.build_direction)
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    hanging = overhanging_struts(frame, length, up, process)
+    return int(is_flat(frame, up, process.inclination).sum()), int(hanging.sum())
+
+
 def without_flat_struts(
     designed: Callable[[LatticeSpec], _Design],
     is_wanted: Callable[[_Design], bool],
@@ -68,7 +90,7 @@ def without_flat_struts(
     Args:
         designed: makes the design of a specification.
         is_wanted: whether a design will do.
-        spec: with all struts.
+        spec: with all struts, of which some hang over.
         goal: what is wanted.
 
     Returns:
@@ -76,8 +98,8 @@ def without_flat_struts(
     """
     building = goal.building
     steeper = None if building is None else building.without_flat_struts(spec)
-    if building is None or steeper is None:
-        return designed(spec), []
+    assert building is not None
+    assert steeper is not None
     try:
         made = designed(steeper)
         if is_wanted(made):
@@ -87,3 +109,29 @@ def without_flat_struts(
         reason = str(error).rstrip(".")
     stays = f"Struts that lie flatter than {building.process.name} builds stay: {reason}."
     return designed(spec), [stays]
+
+
+def without_bridges(
+    designed: Callable[[LatticeSpec], _Design],
+    is_better: Callable[[_Design, _Design], bool],
+    made: _Design,
+    spec: LatticeSpec,
+    goal: Goal,
+) -> _Design:
+    """A design, or where that is better the one without the flat struts that its process bridges.
+
+    Args:
+        designed: makes the design of a specification.
+        is_better: whether the first of two designs is the better one.
+        made: the design with all struts.
+        spec: of it.
+        goal: what is wanted.
+    """
+    steeper = None if goal.building is None else goal.building.without_flat_struts(spec)
+    if steeper is None:
+        return made
+    try:
+        other = designed(steeper)
+    except (VolfrepError, Cancelled):  # there is a design
+        return made
+    return other if is_better(other, made) else made

@@ -30,7 +30,7 @@ from ...util.showing import Shown
 from ...util.types import Floats
 from ..infill import Infill
 from .as_it_is import solve_struts
-from .buildable import buildable, checked, without_flat_struts
+from .buildable import buildable, checked, flat_struts, without_bridges, without_flat_struts
 from .building import Building
 from .directions import Along, advice, along_directions, directed
 from .goal import Goal
@@ -195,16 +195,23 @@ def size(
 
     built: list[str] = []
     building, found = wanted.building, None
-    may_turn = building is not None and building.without_flat_struts(spec) is not None
-    if building is not None and building.is_free and may_turn:
-        found = along()
-        if found:
+    every = Infill(solid, replace(all_struts(spec), target=None), monitor=monitor, cache=cache)
+    flat, hanging = (0, 0) if building is None else flat_struts(building, every)
+    if building is None or not hanging:
+        made = designed(spec)
+        if flat and wanted.limits.any and made.search.sized.stopped != "cancelled":
+            made = without_bridges(
+                designed, lambda one, other: one.is_wanted and one.rank < other.rank, made, spec,
+                wanted,
+            )  # fmt: skip
+    else:
+        if building.is_free and (found := along()):
             wanted, why = directed(wanted, found)
             built.append(why)
-    made, stays = without_flat_struts(designed, lambda one: one.is_wanted, spec, wanted)
-    built += stays
-    if may_turn and made.search.sized.stopped != "cancelled":
-        built += advice(wanted, made.task.infill, found, along, bool(stays))
+        made, stays = without_flat_struts(designed, lambda one: one.is_wanted, spec, wanted)
+        built += stays
+        if made.search.sized.stopped != "cancelled":
+            built += advice(wanted, made.task.infill, found, along, bool(stays))
     made.task.notes.extend(built)
     start = time.perf_counter()
     problem, volume = made.task.model.problem, made.search.sized.analysis.volume

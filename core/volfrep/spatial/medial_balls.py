@@ -34,10 +34,14 @@ def wall_thickness(solid: TriangleMesh, places: Floats) -> Floats:
     normal = remesh.unit_normals(solid.vertices[solid.triangles[triangle]])
     radius = np.full(len(places), 0.5 * float(np.linalg.norm(np.ptp(solid.bounds, axis=0))))
     for _ in range(_SHRINKS):
-        near, away, _ = closest_points(solid, foot - radius[:, None] * normal)
+        middle = foot - radius[:, None] * normal
+        near, away, other = closest_points(solid, middle)
         way = foot - near
         along = np.einsum("ni,ni->n", way, normal)
-        meets = (away < radius * (1.0 - _OUT)) & (along > 1e-9 * radius)
+        facing = remesh.normals(solid.vertices[solid.triangles[other]])
+        beyond = np.einsum("ni,ni->n", middle - near, facing) > 0.0
+        meets = beyond | (away < radius * (1.0 - _OUT))
+        meets &= (away < radius * (1.0 - 1e-9)) & (along > 1e-9 * radius)
         if not meets.any():
             break
         square = np.einsum("ni,ni->n", way, way)

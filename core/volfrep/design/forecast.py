@@ -118,8 +118,8 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     one, edge = cell_volume(spec), spec.cell_size / spec.facets_along_cell
     wall = wall_area(solid, depth)
     dense = _density(solid, spec)
-    bends = skin_bends(solid, spec)
-    triangles = len(solid.triangles) + costs.FACETS_PER_BEND * bends * wall / area
+    shelling = _skin_work(solid, spec)
+    triangles = len(solid.triangles) + shelling.facets * wall / area
     cut = costs.WALL_TRIANGLES * wall / edge**2
     if spec.output != "domain":
         triangles += dense * expected_triangles(spec, inside) + cut
@@ -128,8 +128,7 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     if spec.cell_map is None:
         grid = np.ceil(np.ptp(solid.bounds, axis=0) / spec.cell_size - 1e-6).prod()
         cells = min(cells, float(grid) * spec.cell_size**3 / one)
-    narrow = narrow_gaps(solid, spec)
-    seconds = _skin_seconds(solid, spec) + costs.SECONDS_PER_TRIANGLE * triangles
+    seconds = costs.SECONDS + shelling.seconds + costs.SECONDS_PER_TRIANGLE * triangles
     if spec.streams and spec.output != "domain":
         # Octants that the wall does not come near are placed and written, and no more.
         far = volume * share_deeper(solid, depth + costs.CUT_LAYER * spec.cell_size)
@@ -147,7 +146,7 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
         each += 0.0 if streamed else costs.BYTES_PER_MESH_TRIANGLE
         beside = costs.BYTES_OF_GROUPS + each * triangles
         held = min(held, costs.BYTES_PER_CUT_TRIANGLE * cut + beside)
-    held = max(held, costs.BYTES_PER_BEND * bends + costs.BYTES_PER_NARROW * narrow)
+    held = max(held, shelling.held)
     held += costs.BYTES_GRADED if spec.is_graded else 0.0
     return _forecast(cells, spec.kind.strut_shares(), triangles, held / triangles, seconds)
 
@@ -155,15 +154,36 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
 def forecast_fill_beams(solid: TriangleMesh, spec: LatticeSpec) -> BeamForecast:
     """What `infill.Infill.beams` and its file will come to; as quick as `forecast_fill`."""
     told = forecast_fill(solid, spec)
-    seconds = _skin_seconds(solid, spec) + costs.SECONDS_PER_BEAM * told.struts
+    seconds = costs.SECONDS + _skin_work(solid, spec).seconds
+    seconds += costs.SECONDS_PER_BEAM * told.struts
     held = costs.BYTES_OF_A_PART + costs.BYTES_PER_BEAM * told.struts
     return _forecast_beams(told, held, seconds)
 
 
-def _skin_seconds(solid: TriangleMesh, spec: LatticeSpec) -> float:
-    """Of a job's start and its skin's wall, on two cores."""
-    narrow = costs.SECONDS_PER_NARROW * narrow_gaps(solid, spec)
-    return costs.SECONDS + costs.SECONDS_PER_BEND * skin_bends(solid, spec) + narrow
+@dataclass(frozen=True)
+class _SkinWork:
+    """What a skin's wall takes: seconds on two cores, bytes, facets of the whole wall."""
+
+    seconds: float
+    held: float
+    facets: float
+
+
+def _skin_work(solid: TriangleMesh, spec: LatticeSpec) -> _SkinWork:
+    skin = spec.skin
+    if skin is not None and skin.is_even and not skin.open_faces:
+        from .skins.plane_faces import few_plane_faces  # of no use to blocks, and slow to import
+
+        faces = few_plane_faces(solid, skin.thickness)
+        if faces is not None:
+            each = costs.SECONDS_PER_BODY, costs.BYTES_PER_BODY, costs.FACETS_PER_BODY
+            return _SkinWork(*(faces.bodies * one for one in each))
+    bends, narrow = skin_bends(solid, spec), narrow_gaps(solid, spec)
+    return _SkinWork(
+        costs.SECONDS_PER_BEND * bends + costs.SECONDS_PER_NARROW * narrow,
+        costs.BYTES_PER_BEND * bends + costs.BYTES_PER_NARROW * narrow,
+        costs.FACETS_PER_BEND * bends,
+    )
 
 
 def share_deeper(solid: TriangleMesh, depth: float) -> float:
@@ -297,12 +317,10 @@ def _forecast_graph(
     solid: TriangleMesh, spec: LatticeSpec, points: float, struts: float
 ) -> Forecast:
     triangles = costs.TRIANGLES_PER_STRUT * struts + len(solid.triangles)
-    bends = skin_bends(solid, spec)
-    narrow = narrow_gaps(solid, spec)
-    seconds = _skin_seconds(solid, spec) + costs.SECONDS_PER_NETWORK_TRIANGLE * triangles
+    shelling = _skin_work(solid, spec)
+    seconds = costs.SECONDS + shelling.seconds + costs.SECONDS_PER_NETWORK_TRIANGLE * triangles
     share = np.array([struts / points])
-    wall = costs.BYTES_PER_BEND * bends + costs.BYTES_PER_NARROW * narrow
-    held = max(costs.BYTES_PER_NETWORK_TRIANGLE * triangles, wall)
+    held = max(costs.BYTES_PER_NETWORK_TRIANGLE * triangles, shelling.held)
     found = _forecast(points, share, triangles, held / triangles, seconds)
     return replace(found, cells=0)
 

@@ -4,7 +4,8 @@
 It is the level set of the distance to the outer surface, so it cannot cross itself the way a
 surface of moved faces does. `sampled_depth` samples the depth at the corners of cubes, `octree`
 tells the patches of surface in them, `dual_contouring` makes facets of these, `adaptive_contour`
-halves the cubes whose facets stray, `wall_decimation` takes the facets away that are not needed.
+halves the cubes whose facets stray, `decimation` takes the facets away that are not needed. Of a
+skin that is thin beside a part of few plane faces these are moved instead (`moved_faces`).
 
 OpenCASCADE's exact offset fails on real parts and is not used.
 """
@@ -16,16 +17,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..design.skins.plane_faces import few_plane_faces
 from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, empty_mesh, random_points
-from ..spatial.proximity import closest_points, index_surface, sharing_index
+from ..spatial.proximity import (
+    NearestTriangles,
+    closest_points,
+    index_surface,
+    sharing_index,
+)
 from ..spatial.rays import points_within
 from ..util.errors import VolfrepError
+from ..util.manifold import has_manifold
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .adaptive_contour import find_offset_surface
 from .decimation import simplify
 from .depth import Depth, open_depth
+from .moved_faces import move_faces
 from .sampled_depth import DepthField, cube_grid
 from .smooth_regions import SmoothRegions, find_smooth_regions
 
@@ -36,6 +45,8 @@ CUBES_ALONG_DIAGONAL = 50
 #: A wall is good when its thickness is within this at so many random points of it.
 TOLERANCE = 0.05
 MEASURED_POINTS = 20_000
+#: Of which so many are measured exactly at a time: facets that are needles are near many.
+POINTS_AT_ONCE = 2000
 #: Spacing of the samples on the outer surface in units of the thickness.
 SAMPLE_SPACING = 0.3
 #: Cubes with all that is kept of them need about this much memory, in bytes a coarsest cube that
@@ -98,6 +109,10 @@ def find_cavity(
     depth: Depth
     cube = min(CUBE * thickness, diagonal / CUBES_ALONG_DIAGONAL)
     monitor.tick(0.0)
+    if uneven is None and is_open is None and has_manifold():
+        moved = _move_few_faces(solid, thickness, (SMALLEST_POCKET * cube) ** 3, monitor)
+        if moved is not None and moved.worst <= TOLERANCE:
+            return moved
     spacing = SAMPLE_SPACING * thickness
     if uneven is not None:
         _refuse_too_thin(solid, thickness, solid.area / cube**2, cube)
@@ -118,6 +133,26 @@ def find_cavity(
         _refuse_too_thin(solid, thickness, solid.area / cube**2, cube)
         depth = open_depth(solid, is_open, thickness, spacing, monitor)
     return _find_cavity(solid, depth, cube, None)
+
+
+def _move_few_faces(
+    solid: TriangleMesh, thickness: float, smallest: float, monitor: Monitor
+) -> Cavity | None:
+    """The wall by moving faces, without rooms of less than a volume in mm3; None of many faces."""
+    faces = monitor.call(lambda: few_plane_faces(solid, thickness))
+    if faces is None:
+        return None
+    mesh = without_small(move_faces(faces, thickness, monitor), smallest)
+    if not len(mesh.triangles):
+        return Cavity(mesh, 0.0, np.zeros(3))
+    # At a gap between two bodies the wall would come near the surface: vertices tell it.
+    points = np.concatenate([random_points(mesh, MEASURED_POINTS), mesh.vertices])
+    nearest, depths = NearestTriangles(solid), []
+    for start in range(0, len(points), POINTS_AT_ONCE):
+        monitor.tick()
+        depths.append(nearest.closest(points[start : start + POINTS_AT_ONCE])[1])
+    error = np.abs(np.concatenate(depths) / thickness - 1.0)
+    return Cavity(mesh, float(error.max()), points[np.argmax(error)])
 
 
 def _find_cavity(

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Of a solid of few plane faces the inner wall is exact: closed forms, and distances at it."""
+
+import manifold3d
+import numpy as np
+import pytest
+import trimesh
+
+import samples
+from volfrep.design.skins.plane_faces import find_plane_faces
+from volfrep.mesh.booleans import as_mesh
+from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.shell.moved_faces import move_faces
+from volfrep.shell.offset import find_cavity
+from volfrep.spatial.proximity import closest_points
+from volfrep.util.progress import Monitor
+from walls import wall_errors
+
+
+def moved(solid, thickness):
+    faces = find_plane_faces(solid, thickness)
+    return move_faces(faces, thickness, Monitor())
+
+
+def check_wall(solid, wall, thickness):
+    """Closed, and as deep at random points and at every vertex as it should be."""
+    mesh = trimesh.Trimesh(wall.vertices, wall.triangles, process=False)
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    assert np.abs(wall_errors(solid, wall, thickness, 4000)).max() < 0.011
+    at_corners = closest_points(solid, wall.vertices)[1] / thickness
+    np.testing.assert_allclose(at_corners, 1.0, atol=0.011)
+    return mesh
+
+
+def pocketed(size, pocket, turn=(0.0, 0.0, 0.0)):
+    """A box with a pocket of some length, width and depth in the middle of its top."""
+    solid = manifold3d.Manifold.cube(size)
+    corner = [(size[0] - pocket[0]) / 2, (size[1] - pocket[1]) / 2, size[2] - pocket[2]]
+    solid -= manifold3d.Manifold.cube((*pocket[:2], 2 * pocket[2])).translate(corner)
+    return as_mesh(solid.rotate(turn))
+
+
+@pytest.mark.parametrize("turn", [(0.0, 0.0, 0.0), (10.0, 20.0, 30.0)])
+def test_a_pocket_has_its_edges_and_corners_rounded_below(turn):
+    (a, b, c), (p, q, d), t = (40.0, 30.0, 20.0), (14.0, 10.0, 8.0), 2.0
+    solid = pocketed((a, b, c), (p, q, d), turn)
+    wall = moved(solid, t)
+    assert check_wall(solid, wall, t).euler_number == 2
+    low = d - t
+    around = (p * q + 2 * (p + q) * t + np.pi * t**2) * low
+    below = p * q * t + 2 * (p + q) * np.pi * t**2 / 4 + 2.0 / 3.0 * np.pi * t**3
+    inner = (a - 2 * t) * (b - 2 * t) * (c - 2 * t)
+    assert wall.volume == pytest.approx(inner - around - below, rel=2e-4)
+
+
+def test_facets_of_one_face_count_as_one():
+    """However a flat face was cut into facets, needles or not, one prism goes below it."""
+    solid = pocketed((40.0, 30.0, 20.0), (14.0, 10.0, 8.0))
+    faces = find_plane_faces(solid, 1.0)
+    assert len(faces.normal) == 11
+    assert len(faces.edges) == 8
+    assert len(faces.corners) == 4
+    divided = trimesh.Trimesh(solid.vertices, solid.triangles, process=False).subdivide()
+    finer = TriangleMesh(np.asarray(divided.vertices), np.asarray(divided.faces, np.int32))
+    assert len(finer.triangles) == 4 * len(solid.triangles)
+    assert len(find_plane_faces(finer, 1.0).normal) == 11
+
+
+def test_what_is_thin_everywhere_leaves_nothing():
+    assert not len(moved(samples.box((20.0, 20.0, 4.0)), 2.1).triangles)
+
+
+@pytest.mark.costly
+def test_a_thin_skin_of_a_large_sheet_has_its_faces_moved():
+    size, t = (60.0, 70.0, 3.0), 0.1
+    solid, monitor = samples.sheet(size), Monitor()
+    wall = find_cavity(solid, t, monitor)
+    assert monitor.work["bodies that a wall was cut with"] < 300
+    assert wall.worst < 0.005
+    assert check_wall(solid, wall.mesh, t).euler_number == 2 - 2 * 2
+    around = sum(np.pi * (radius + t) ** 2 for radius in (4.0, 0.6))
+    inner = ((size[0] - 2 * t) * (size[1] - 2 * t) - around) * (size[2] - 2 * t)
+    assert wall.mesh.volume == pytest.approx(inner, rel=1e-4)
+    assert len(wall.mesh.triangles) < 2000
+
+
+def test_an_ordinary_skin_is_found_by_cubes():
+    monitor = Monitor()
+    find_cavity(samples.box(), 2.0, monitor)
+    assert "bodies that a wall was cut with" not in monitor.work

@@ -406,7 +406,9 @@ def in_a_process(seed: int, number: int) -> dict[str, Any]:
 def _import_all() -> None:
     """Import what jobs use, once and not in each one's process."""
     raw = manifold3d.Manifold.cube((1.0, 1.0, 1.0)).to_mesh64()
-    cube = TriangleMesh(np.asarray(raw.vert_properties, float)[:, :3], np.asarray(raw.tri_verts))
+    cube = TriangleMesh(
+        np.asarray(raw.vert_properties, float)[:, :3], np.asarray(raw.tri_verts, np.int32)
+    )
     with tempfile.TemporaryDirectory() as folder:
         for suffix in SUFFIXES:
             write_mesh(cube, Path(folder) / f"cube{suffix}")

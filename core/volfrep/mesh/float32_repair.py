@@ -6,7 +6,8 @@ And slivers as thin: three corners almost on a line may lie on it after rounding
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -50,49 +51,127 @@ def remove_slivers(mesh: TriangleMesh, tolerance: float) -> TriangleMesh:
         mesh: closed.
         tolerance: mm.
     """
-    result = without_slivers(mesh, tolerance)
-    return mesh if result.number is None else compact(result.mesh, owned=True)
+    repair = repair_slivers(mesh, tolerance)
+    return repair.applied(mesh)[0] if len(repair.old) else mesh
 
 
-class WithoutSlivers(NamedTuple):
-    """A mesh after slivers went.
+@dataclass(frozen=True, eq=False)
+class Repair:
+    """Triangles of a mesh that others take the place of.
 
     Attributes:
-        mesh: without the vertices that went.
-        new: (m,) bool, which of its triangles were not there, or elsewhere.
-        origin: (m,) which one each was, or is in the place of.
-        number: (n,) of each vertex that there was, if it is in use; None: as it was.
+        old: (k,) those that go, ascending.
+        piece: (p, 3) int32, those that come, of the same vertices.
+        origin: (p,) which of the old ones each is in the place of.
+        new: (p,) bool, those that were not among the old ones, or elsewhere.
+        moved: (v,) vertices of theirs that move, of no other triangle, ascending.
+        places: (v, 3) where to, mm.
+        unused: (u,) vertices that go, ascending.
     """
 
-    mesh: TriangleMesh
-    new: Bools
+    old: Ints
+    piece: NDArray[np.int32]
     origin: Ints
-    number: NDArray[np.int32] | None
+    new: Bools
+    moved: Ints
+    places: NDArray[np.float64]
+    unused: Ints
+
+    @property
+    def gone(self) -> Ints:
+        """The triangles that are not there any more, or elsewhere."""
+        return np.setdiff1d(self.old, self.old[self.origin[~self.new]])
+
+    def stays(self, mesh: TriangleMesh) -> Bools:
+        """(m,) which triangles of the mesh stay."""
+        result = np.ones(len(mesh.triangles), bool)
+        result[self.old] = False
+        return result
+
+    def some(self, mesh: TriangleMesh, triangles: NDArray[np.int32]) -> TriangleMesh:
+        """A mesh of some of the triangles that stay and that come."""
+        used, local = np.unique(triangles, return_inverse=True)
+        vertices = corners_at(mesh.vertices, used)
+        place = np.searchsorted(used, self.moved)
+        here = np.isin(self.moved, used)
+        vertices[place[here]] = self.places[here]
+        return TriangleMesh(vertices, local.reshape(-1, 3).astype(np.int32))
+
+    def applied(
+        self, mesh: TriangleMesh, goes: Bools | None = None, piece_goes: Bools | None = None
+    ) -> tuple[TriangleMesh, NDArray[np.int32]]:
+        """What is left of the mesh, triangles that come last; (n,) the number of vertices in use.
+
+        Args:
+            mesh: that it is of, all of its vertices in use.
+            goes: (m,) bool, triangles of the mesh that go, too, whole shells; None: none.
+            piece_goes: (p,) bool, those that come of these; None: none.
+        """
+        in_use, stays, piece = np.ones(len(mesh.vertices), bool), self.stays(mesh), self.piece
+        in_use[self.unused] = False
+        if goes is not None:
+            in_use[mesh.triangles[goes]] = False
+            stays &= ~goes
+        if piece_goes is not None:
+            in_use[piece[piece_goes]] = False
+            piece = piece[~piece_goes]
+        number = np.cumsum(in_use, dtype=np.int32)
+        number -= 1
+        vertices = np.empty((int(np.count_nonzero(in_use)), 3))
+        for part, rows in _kept_blocks(in_use, mesh.vertices):
+            vertices[rows] = part
+        there = in_use[self.moved]
+        vertices[number[self.moved[there]]] = self.places[there]
+        triangles = np.empty((int(np.count_nonzero(stays)) + len(piece), 3), np.int32)
+        for corners, rows in _kept_blocks(stays, mesh.triangles):
+            np.take(number, corners, out=triangles[rows], mode="clip")
+        np.take(number, piece, out=triangles[len(triangles) - len(piece) :], mode="clip")
+        return TriangleMesh(vertices, triangles), number
 
 
-def without_slivers(
-    mesh: TriangleMesh, tolerance: float, among: Ints | None = None
-) -> WithoutSlivers:
-    """As `remove_slivers`; with `among` only these triangles are looked at."""
+def _kept_blocks(kept: Bools, rows: NDArray[Any]) -> Iterator[tuple[NDArray[Any], slice]]:
+    """The rows that are kept, nearly all of them, some at a time, and where they are then."""
+    filled = 0
+    for start in range(0, len(kept), BLOCK_TRIANGLES):
+        some, part = kept[start : start + BLOCK_TRIANGLES], rows[start : start + BLOCK_TRIANGLES]
+        if not some.all():
+            part = rows_where(some, part)
+        yield part, slice(filled, filled + len(part))
+        filled += len(part)
+
+
+_NONE = np.zeros(0, np.int64)
+#: Nothing changes.
+NO_REPAIR = Repair(
+    _NONE, np.zeros((0, 3), np.int32), _NONE, _NONE > 0, _NONE, np.zeros((0, 3)), _NONE
+)
+
+
+def repair_slivers(mesh: TriangleMesh, tolerance: float, among: Ints | None = None) -> Repair:
+    """As `remove_slivers`: what changes; with `among` only these triangles are looked at.
+
+    Args:
+        mesh: all of its vertices in use.
+        tolerance: mm.
+        among: rows of triangles; None: all.
+    """
     if among is None:
         thin = slivers(mesh, tolerance)
     else:
         thin = among[_slivers(mesh.vertices, mesh.triangles[among], tolerance)]
     if not len(thin):
-        return WithoutSlivers(mesh, *_nothing_new(mesh), None)
+        return NO_REPAIR
     rest = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
-    stayed, new, origin = rest.compared(mesh)
-    count = len(mesh.vertices)
+    differs = _differ(rest.places, mesh.vertices[rest.stay])
+    moved = np.zeros(len(mesh.vertices), bool)
+    moved[rest.stay[differs]] = True
     # Vertices at the border of what was looked at are those of other triangles, too, and stay.
-    there = vertices_of(rest.piece, count)
-    in_use = there | ~vertices_of(mesh.triangles[rest.old], count)
-    number = np.cumsum(in_use, dtype=np.int32)
-    number -= 1
-    vertices, some = rows_where(in_use, mesh.vertices), there[rest.stay]
-    vertices[number[rest.stay[some]]] = rest.places[some]
-    triangles = rest.joined(mesh.triangles, stayed)
-    np.take(number, triangles, out=triangles, mode="clip")
-    return WithoutSlivers(TriangleMesh(vertices, triangles), new, origin, number)
+    old = mesh.triangles[rest.old]
+    return Repair(
+        rest.old, rest.piece, rest.origin,
+        _differ(rest.piece, old[rest.origin]) | touching(moved, rest.piece),
+        rest.stay[differs], rest.places[differs], np.setdiff1d(old, rest.piece),
+    )  # fmt: skip
 
 
 def without_slivers_at(
@@ -108,7 +187,7 @@ def without_slivers_at(
 def without_inner_slivers(
     mesh: TriangleMesh, rim: Ints, tolerance: float
 ) -> tuple[TriangleMesh, Bools, Ints]:
-    """As `without_slivers`, of an open mesh: nothing changes near its rim.
+    """As `remove_slivers`, of an open mesh: nothing changes near its rim.
 
     Args:
         mesh: open at its rim only.

@@ -7,16 +7,17 @@ What the parts come to is summed when they are joined, and what changes later is
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..util.types import Bools, Floats, Ints
+from ..util.types import Floats, Ints
+from .float32_repair import NO_REPAIR, Repair
 from .quality import Inspection, Quality, sizes
-from .topology import edge_uses, pieces_of
-from .triangle_mesh import TriangleMesh, compact
+from .topology import edge_uses, pieces_of, touching, vertices_of
+from .triangle_mesh import TriangleMesh
 
 #: The point that cones are drawn from.
 ORIGIN = np.zeros(3)
@@ -31,16 +32,16 @@ class OpenShells:
         volume: signed volume of each, of cones from the origin of coordinates, mm3.
         area: of all, mm2.
         degenerate: triangles, as of `Quality`.
+        triangles: how many there are.
+        vertices: how many they use.
     """
 
     shell: NDArray[np.unsignedinteger[Any]]
     volume: Floats
     area: float
     degenerate: int
-
-    def of(self, rows: Ints) -> OpenShells:
-        """The same, of the triangles in another order."""
-        return replace(self, shell=self.shell[rows])
+    triangles: int
+    vertices: int
 
     def at(self, vertices: Ints, mesh: TriangleMesh) -> Ints:
         """(k,) the shells that some vertices of the mesh belong to."""
@@ -50,14 +51,13 @@ class OpenShells:
         return shell[vertices]
 
     def inspection(self, mesh: TriangleMesh, open_edges: int) -> Inspection:
-        """As of `inspect`, where it is known how many edges of the mesh, all in use, are open."""
-        triangles, vertices = len(mesh.triangles), len(mesh.vertices)
+        """As of `inspect`, where it is known how many edges of the mesh are open."""
         shells = int(np.count_nonzero(np.bincount(self.shell)))
         closed = not open_edges
-        euler = vertices - (triangles + open_edges) // 2
+        euler = self.vertices - (self.triangles + open_edges) // 2
         quality = Quality(
-            triangles=triangles,
-            vertices=vertices,
+            triangles=self.triangles,
+            vertices=self.vertices,
             watertight=closed,
             open_edges=open_edges,
             overused_edges=0,
@@ -73,78 +73,76 @@ class OpenShells:
         )
         return Inspection(quality, self.shell.astype(np.int32), self.volume)
 
-    def rebuilt(
-        self,
-        before: TriangleMesh,
-        after: TriangleMesh,
-        origin: Ints,
-        new: Bools,
-        beside: Ints,
-        number: NDArray[np.int32],
-    ) -> OpenShells | None:
-        """The same, after triangles went and others came.
+    def repaired(self, mesh: TriangleMesh, repair: Repair, beside: Ints) -> OpenShells | None:
+        """The same, measured after a repair; which shell each triangle belongs to is as it was.
 
         Args:
-            before: the mesh that the shells are of.
-            after: the mesh as it is now.
-            origin: (m,) which triangle each was, or is in the place of.
-            new: (m,) bool, those that were not there, or elsewhere.
-            beside: those that share a vertex with new ones, and these.
-            number: of each vertex of the mesh as it was, if it is in use.
+            mesh: that the shells are of.
+            repair: what changes.
+            beside: all triangles that stay and share a vertex with new ones.
 
         Returns:
-            None where the new ones are not joined as those that went were.
+            None where those that come are not joined as those that went were.
         """
-        gone = np.ones(len(before.triangles), bool)
-        gone[origin[~new]] = False
-        size, shell = len(after.vertices), self.shell[origin]
-        old, fresh = before.triangles[gone], after.triangles[new]
-        others = after.triangles[beside[~new[beside]]]
-        border, was_border = _border(_ends(fresh)), _border(_ends(old))
-        if border is None or was_border is None:
+        size, gone, fresh = len(mesh.vertices), repair.gone, repair.piece[repair.new]
+        shell = self.shell[repair.old[repair.origin[repair.new]]]
+        old, kept = mesh.triangles[gone], np.flatnonzero(~repair.new)
+        kept = kept[touching(vertices_of(fresh, size), repair.piece[kept])]
+        others = np.concatenate([mesh.triangles[beside], repair.piece[kept]])
+        border, was_border = _border(fresh, size), _border(old, size)
+        if border is None or was_border is None or not np.array_equal(border, was_border):
             return None
-        keys = _keys(border, size)
-        if not np.array_equal(np.sort(keys), np.sort(_keys(number[was_border], size))):
+        # Where those that come meet each other they meet nothing else, and nowhere two shells.
+        inner = np.setdiff1d(_sides(fresh, size), border)
+        if np.isin(_sides(others, size), inner).any():
             return None
-        # Where new ones meet each other they meet nothing else, and no two shells.
-        inner = np.setdiff1d(_keys(_ends(fresh), size), keys)
-        if np.isin(_keys(_ends(others), size), inner).any():
+        rows = np.concatenate([beside, repair.old[repair.origin[kept]]])
+        if not _agree(np.concatenate([others, fresh]), np.concatenate([self.shell[rows], shell])):
             return None
-        if not _agree(after.triangles[beside], shell[beside]):
-            return None
-        was, now = (
-            sizes(compact(TriangleMesh(mesh.vertices, rows)), ORIGIN)
-            for mesh, rows in ((before, old), (after, fresh))
-        )
-        if now[3]:
-            return None
-        count = len(self.volume)
-        volume = self.volume - np.bincount(self.shell[gone], was[0], count)
-        volume += np.bincount(shell[new], now[0], count)
-        area, degenerate = self.area + now[1] - was[1], self.degenerate + now[2] - was[2]
-        return OpenShells(shell, volume, area, degenerate)
+        volume, area, degenerate = self.volume.copy(), self.area, self.degenerate
+        for sign, which, part in (
+            (-1, self.shell[gone], NO_REPAIR.some(mesh, old)), (1, shell, repair.some(mesh, fresh)),
+        ):  # fmt: skip
+            if not len(which):
+                continue
+            volumes, covered, flat, repeated = sizes(part, ORIGIN)
+            if repeated:
+                return None
+            volume += sign * np.bincount(which, volumes, len(volume))
+            area += sign * covered
+            degenerate += sign * flat
+        return OpenShells(
+            self.shell, volume, area, degenerate,
+            self.triangles + len(fresh) - len(gone), self.vertices - len(repair.unused),
+        )  # fmt: skip
 
 
 def open_shells(mesh: TriangleMesh) -> OpenShells | None:
     """The shells of a mesh, all of whose vertices are in use; None where it is not one of these."""
     if not len(mesh.triangles):
-        return OpenShells(np.zeros(0, np.uint8), np.zeros(0), 0.0, 0)
+        return OpenShells(np.zeros(0, np.uint8), np.zeros(0), 0.0, 0, 0, 0)
     uses = edge_uses(mesh)
     volumes, area, degenerate, repeated = sizes(mesh, ORIGIN)
     if uses.overused or uses.misoriented or repeated:
         return None
     shell = uses.piece[mesh.triangles[:, 0]]
     volume = np.bincount(shell, volumes, uses.pieces).astype(np.float64)
-    return OpenShells(shell.astype(np.min_scalar_type(uses.pieces)), volume, area, degenerate)
+    return OpenShells(
+        shell.astype(np.min_scalar_type(uses.pieces)), volume, area, degenerate,
+        len(mesh.triangles), len(mesh.vertices),
+    )  # fmt: skip
 
 
-def joined_shells(parts: Sequence[OpenShells], first: Ints, second: Ints) -> OpenShells:
+def joined_shells(
+    parts: Sequence[OpenShells], first: Ints, second: Ints, vertices: int
+) -> OpenShells:
     """The shells of parts of a surface, whose edges go together where they are joined.
 
     Args:
         parts: one after the other.
         first: (k,) shells, counted through all parts.
         second: (k,) those that they are joined to.
+        vertices: how many there are together.
     """
     begin = np.cumsum([0] + [len(part.volume) for part in parts])
     pairs = np.unique(first.astype(np.int64) * begin[-1] + second)
@@ -159,28 +157,26 @@ def joined_shells(parts: Sequence[OpenShells], first: Ints, second: Ints) -> Ope
         np.bincount(label, volume, count).astype(np.float64),
         sum(part.area for part in parts),
         sum(part.degenerate for part in parts),
+        sum(part.triangles for part in parts),
+        vertices,
     )
 
 
-def _ends(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
-    """(2, 3 m) where the sides of triangles start and end."""
-    return np.stack([triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()])
-
-
-def _keys(ends: NDArray[np.int32], size: int) -> Ints:
-    """A number for each side, between two of so many vertices, one way."""
-    start, end = ends.astype(np.int64)
-    result: Ints = start * size + end
+def _sides(triangles: NDArray[np.int32], size: int) -> Ints:
+    """A number for each side of triangles, between two of so many vertices, one way."""
+    start = triangles.astype(np.int64)
+    result: Ints = (start * size + np.roll(start, -1, axis=1)).ravel()
     return result
 
 
-def _border(ends: NDArray[np.int32]) -> NDArray[np.int32] | None:
-    """(2, k) the sides that are run along one way only; None where some are twice the same way."""
-    size = int(ends.max(initial=0)) + 1
-    keys = _keys(ends, size)
-    if len(np.unique(keys)) < len(keys):
+def _border(triangles: NDArray[np.int32], size: int) -> Ints | None:
+    """The sides that are run along one way only, ascending; None where some are twice so."""
+    sides = _sides(triangles, size)
+    there = np.unique(sides)
+    if len(there) < len(sides):
         return None
-    return ends[:, ~np.isin(keys, _keys(ends[::-1], size))]
+    start, end = np.divmod(there, size)
+    return there[~np.isin(end * size + start, there)]
 
 
 def _agree(triangles: NDArray[np.int32], shell: NDArray[Any]) -> bool:

@@ -21,6 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.float32_repair import Repair
 from ..mesh.precision import decimal_step, rounded
 from ..mesh.topology import displaced_vertices, edge_keys, pieces_of, touching, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, triangle_boxes
@@ -111,18 +112,22 @@ class Looks:
         """The same, with so many triangles before and after them of which nothing is known."""
         return Looks(np.pad(self.marks, (before, after)), self.step)
 
-    def rebuilt(self, origin: Ints, new: Bools, beside: Ints) -> Looks:
-        """The same, after some went and others came.
+    def repaired(self, repair: Repair, stays: Bools, beside: Ints, piece_stays: Bools) -> Looks:
+        """The same, of what a repair leaves.
 
         Args:
-            origin: (m,) which one each triangle was, or is in the place of.
-            new: (m,) bool, those that were not there, or elsewhere.
+            repair: what changes.
+            stays: (m,) bool, triangles that stay.
             beside: those that touch new ones, at whose edges the surface may turn otherwise now.
+            piece_stays: (p,) bool, triangles that come and stay.
         """
-        marks = self.marks[origin]
+        piece = self.marks[repair.old[repair.origin]]
+        fresh = np.isin(repair.piece, repair.piece[repair.new]).any(axis=1)
+        piece[fresh] &= np.uint8(APART)
+        piece[repair.new] = 0
+        marks = self.marks.copy()
         marks[beside] &= np.uint8(APART)
-        marks[new] = 0
-        return Looks(marks, self.step)
+        return Looks(np.concatenate([marks[stays], piece[piece_stays]]), self.step)
 
     @property
     def unsound(self) -> Ints:

@@ -302,13 +302,18 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
     """
     if among.all():
         return among
+    return near_corners(mesh, corners_at(mesh.vertices, mesh.triangles[among])) | among
+
+
+def near_corners(mesh: TriangleMesh, corners: Floats) -> Bools:
+    """As `about`, of triangles with (k, 3, 3) corners, mm, that are none of the mesh's."""
     least, most = box_of(mesh.vertices)
     cells_along = min(ABOUT_CELLS, 8 + int(np.cbrt(len(mesh.triangles))))
     size = max(float((most - least).max()) / cells_along, 1e-300)
     # Cells of every vertex first: there are half as many of them as of triangles.
     cells = [((mesh.vertices[:, k] - low) / size).astype(np.int16) for k, low in enumerate(least)]
     shape = tuple(int(cell.max()) + 1 for cell in cells)
-    chosen = mesh.vertices[mesh.triangles[among]] - least
+    chosen = corners - least
     covered = _gone_through(chosen / size, shape)
     where = np.zeros(len(mesh.vertices), np.int32)
     for cell, step in zip(cells, (shape[1] * shape[2], shape[2], 1), strict=True):
@@ -331,7 +336,7 @@ def about(mesh: TriangleMesh, among: Bools) -> Bools:
 
     starts = range(0, len(mesh.triangles), BLOCK_TRIANGLES)
     result = np.concatenate(list(in_threads(reaching, starts)))
-    rows = np.flatnonzero(result & ~among)
+    rows = np.flatnonzero(result)
     if len(rows):
         low, high = triangle_boxes(mesh.vertices.T, mesh.triangles[rows].T)
         result[rows] = _nearer(low - least[:, None], high - least[:, None], chosen)

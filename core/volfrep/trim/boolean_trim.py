@@ -367,16 +367,17 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     sound = not any(map(len, loose))
     return Joined(
         mesh, on_boundary, np.unique(np.concatenate(loose)), _known_looks(pieces), at_rim,
-        _join_shells(pieces, cluster) if sound else None,
+        _join_shells(pieces, cluster, len(mesh.vertices)) if sound else None,
     )  # fmt: skip
 
 
-def _join_shells(pieces: Sequence[Piece], cluster: Ints) -> OpenShells | None:
+def _join_shells(pieces: Sequence[Piece], cluster: Ints, vertices: int) -> OpenShells | None:
     """The shells of pieces that are joined.
 
     Args:
         pieces: joined edge for edge.
         cluster: (k,) a number for each vertex at their rims; those of one number are one.
+        vertices: how many there are then.
     """
     parts = [piece.shells for piece in pieces if piece.shells is not None]
     if len(parts) < len(pieces):
@@ -388,7 +389,7 @@ def _join_shells(pieces: Sequence[Piece], cluster: Ints) -> OpenShells | None:
     ]
     order = np.argsort(cluster, kind="stable")
     shell, same = np.concatenate(each)[order], np.diff(cluster[order]) == 0
-    return joined_shells(parts, shell[:-1][same], shell[1:][same])
+    return joined_shells(parts, shell[:-1][same], shell[1:][same], vertices)
 
 
 def _known_looks(pieces: Sequence[Piece]) -> Looks | None:

@@ -13,21 +13,22 @@ import numpy as np
 from ..mesh.float32_repair import (
     STEPS,
     edge_within,
+    repair_slivers,
     separate_vertices,
-    without_slivers,
     without_slivers_at,
 )
 from ..mesh.precision import merging_vertices
 from ..mesh.quality import Quality, quality_after_moves, refuse_no_solid
 from ..mesh.topology import displaced_vertices, touching, vertices_of
-from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..mesh.triangle_mesh import TriangleMesh, corners_at
 from ..spatial.regions import in_regions
 from ..spatial.resolve_crossings import Folds, folds_of, resolve_fold_crossings
-from ..spatial.self_intersection import about, crossing_edges
+from ..spatial.self_intersection import crossing_edges, near_corners
 from ..spatial.winding import Lines
 from ..util.errors import VolfrepError
-from ..util.progress import Monitor, release_memory
+from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
+from .mended_surface import MendedSurface
 from .trimmed_surface import TrimmedSurface
 
 #: Octants that are nearer to triangles that cross than this may have to go along where these are
@@ -55,32 +56,34 @@ def tidy(surface: TrimmedSurface, precision: float, monitor: Monitor) -> Trimmed
         precision: `shortest_edge` of the part, mm.
         monitor: for cancel.
     """
-    looks = surface.looks
+    return mend(surface, precision, monitor).applied()
+
+
+def mend(surface: TrimmedSurface, precision: float, monitor: Monitor) -> MendedSurface:
+    """As `tidy`, what changes told and not yet done."""
+    looks, mesh = surface.looks, surface.mesh
     unsound = looks.unsound if looks and looks.step * STEPS == precision else None
-    smooth, new, origin, number = without_slivers(surface.mesh, precision, unsound)
-    renumber = None if number is None else number.take
-    release_memory()
-    if not new.any():
-        looks, shells = looks and looks.of(origin), surface.shells and surface.shells.of(origin)
-        return surface.on(smooth, looks, renumber, shells)
+    repair = repair_slivers(mesh, precision, unsound)
+    if not repair.new.any():
+        return MendedSurface(surface, repair, shells=surface.shells)
+    fresh = repair.piece[repair.new]
     # What lies about the new triangles is little, and is all that is looked at.
-    rows = np.flatnonzero(new | about(smooth, new))
-    fresh = vertices_of(smooth.triangles[new], len(smooth.vertices))
-    beside = rows[touching(fresh, smooth.triangles[rows])]
-    looks, shells = looks and looks.rebuilt(origin, new, beside), surface.shells
-    if shells is not None and number is not None:
-        shells = shells.rebuilt(surface.mesh, smooth, origin, new, beside, number)
-    result = surface.on(smooth, looks, renumber, shells)
-    part, among = TriangleMesh(smooth.vertices, smooth.triangles[rows]), new[rows]
+    small = repair.some(mesh, fresh)
+    corners = corners_at(small.vertices, small.triangles)
+    rows = np.flatnonzero(near_corners(mesh, corners) & repair.stays(mesh))
+    every = np.concatenate([mesh.triangles[rows], repair.piece])
+    part, among = repair.some(mesh, every), np.pad(repair.new, (len(rows), 0))
     if surface.octants is not None:
-        near = surface.octants.reached(smooth.vertices[smooth.triangles[new]])
-        if near.any() and result.has_inner_edges(new):  # that those octants may have, too
-            return tidy(surface.with_octants(near, monitor), precision, monitor)
-        part = result.on(compact(part)).with_octants(near, monitor).mesh
+        near = surface.octants.reached(corners)
+        if near.any() and surface.has_inner_edges(fresh):  # that those octants may have, too
+            return mend(surface.with_octants(near, monitor), precision, monitor)
+        part = surface.on(part).with_octants(near, monitor).mesh
         among = np.pad(among, (0, len(part.triangles) - len(among)))
     if any(map(len, in_regions(_crossing, part, among, precision, monitor))):
-        return surface  # a sliver is better than facets that cross
-    return result
+        return MendedSurface(surface)  # a sliver is better than facets that cross
+    beside = rows[touching(vertices_of(fresh, len(mesh.vertices)), mesh.triangles[rows])]
+    shells = surface.shells and surface.shells.repaired(mesh, repair, beside)
+    return MendedSurface(surface, repair, beside, shells)
 
 
 def _crossing(part: TriangleMesh, among: Bools, precision: float, monitor: Monitor) -> Ints:

@@ -3,16 +3,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.quality import Quality, measure, subtract_shells
-from ..mesh.triangle_mesh import TriangleMesh, compact, compacted, rows_where
+from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..octants.octant_spec import OctantSpec
 from ..spatial.rays import inside_points
 from ..util.progress import Monitor
+from .mended_surface import MendedSurface
 from .trimmed_surface import TrimmedSurface
 
 
@@ -43,7 +44,7 @@ def smallest_shell(octant_spec: OctantSpec) -> float:
 
 
 def clear(
-    surface: TrimmedSurface,
+    surface: TrimmedSurface | MendedSurface,
     smallest: float,
     monitor: Monitor,
     *,
@@ -63,8 +64,11 @@ def clear(
             stay.
         bodies: so many of the largest pieces of material stay, all others go; 0: all stay.
     """
-    joined = surface.inspected(monitor)
-    found, mesh = joined.found, surface.mesh
+    mended = surface if isinstance(surface, MendedSurface) else MendedSurface(surface)
+    if len(mended.repair.old) and mended.shells is None:
+        mended = MendedSurface(mended.applied())
+    joined, repair = mended.inspected(monitor), mended.repair
+    found, mesh = joined.found, mended.surface.mesh
     label, volume = found.shell, found.volume
     used = joined.beyond | (np.bincount(label, minlength=len(volume)) > 0)
     solid, void = used & (volume > 0), used & (volume <= 0)
@@ -80,23 +84,29 @@ def clear(
         loose[order[:bodies]] = False
     if not (loose | tiny).any():
         least = float(np.abs(volume[used]).min(initial=np.inf))
-        return Cleared(surface, found.quality, 0, 0, least=least)
+        left = mended.applied()
+        quality = found.quality
+        if left is not mended.surface:
+            quality = replace(quality, bounds=left.bounds)
+        return Cleared(left, quality, 0, 0, least=least)
     # What goes has to be in the mesh, with all that may lie in it.
     alone = joined.beyond & (np.bincount(label, minlength=len(volume)) == 0)
     if (joined.beyond & (loose | tiny)).any() or ((loose & ~tiny).any() and (void & alone).any()):
-        whole = TrimmedSurface(surface.whole(monitor))
+        whole = TrimmedSurface(mended.applied().whole(monitor))
         return clear(whole, smallest, monitor, floating=floating, keep=keep, bodies=bodies)
+    if (loose & ~tiny).any() and len(repair.old):
+        left = mended.applied()
+        return clear(left, smallest, monitor, floating=floating, keep=keep, bodies=bodies)
     # A void inside a loose piece goes with it.
     inside_loose = np.zeros(len(volume), bool)
     if (loose & ~tiny).any() and (void & ~tiny).any():
         inside_loose = void & _find_enclosed(mesh, label, loose & ~tiny, void & ~tiny)
     gone = loose | tiny | inside_loose
-    goes = gone[label]
-    stay = TriangleMesh(mesh.vertices, rows_where(~goes, mesh.triangles))
-    rest, number = compacted(stay, owned=True)
-    left = surface.on(rest, surface.looks and surface.looks.of(~goes), number.take)
+    goes, piece_goes = gone[label], gone[label[repair.old[repair.origin]]]
+    left = mended.applied(goes, piece_goes)
     if found.quality.watertight and left.triangles:
-        taken = measure(compact(TriangleMesh(mesh.vertices, mesh.triangles[goes])))
+        both = mesh.triangles[goes & repair.stays(mesh)], repair.piece[piece_goes]
+        taken = measure(repair.some(mesh, np.concatenate(both)))
         quality = subtract_shells(found.quality, taken, left.bounds, volume[used & ~gone])
     else:
         quality = left.inspected(monitor).found.quality

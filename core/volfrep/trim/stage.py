@@ -36,7 +36,7 @@ from ..util.types import Bools
 from .boolean_trim import Ahead, Trimmed, cut_again, trim
 from .culling import KeptOctants, OctantRoles, cull, keep_all
 from .drains import Drained, drain
-from .finish import tidy
+from .finish import mend, tidy
 from .loose_pieces import Cleared, clear, smallest_shell
 from .placed_lattice import PlacedLattice
 from .prune import Pruned
@@ -164,20 +164,21 @@ def cleared_cut(
             raise _nothing_holds()
     del trimmed  # nobody else has it: the mesh before slivers go, in the way of that after
     release_memory()
-    surface = tidy(surface, precision, monitor)
+    mended = mend(surface, precision, monitor)
+    del surface  # as above
     bodies = 0
     if not (has_skin or keep_pieces):
         bodies = max(1, inspect(solid).quality.bodies)
     floating = with_skin and not keep_pieces
-    cleared = clear(surface, smallest, monitor, floating=floating, bodies=bodies)
+    cleared = clear(mended, smallest, monitor, floating=floating, bodies=bodies)
     if not cleared.surface.triangles:
         if with_skin:
             raise full
         raise VolfrepError(
             "No strut lies inside the part: reduce the cell size or move the origin."
         )
-    is_less = cleared.surface is not surface
-    del surface  # as above
+    is_less = cleared.pieces_removed + cleared.specks_removed > 0
+    del mended  # as above
     release_memory()
     if with_skin and is_less:
         # The cavity's surface counts as negative: what is left may be its wall only.

@@ -152,24 +152,24 @@ class TrimmedSurface:
             return True
         return bool((self._rim_rows >= 0).all()) and self._rim_triangles is not None
 
-    def has_inner_edges(self, among: Bools) -> bool:
-        """Whether chosen triangles of the mesh join vertices at the rim otherwise than along it."""
+    def has_inner_edges(self, triangles: NDArray[np.int32]) -> bool:
+        """Whether triangles of the mesh's vertices join some at the rim otherwise than along it."""
         at_rim = np.zeros(len(self.mesh.vertices), bool)
         at_rim[self._rim_rows] = True
-        start = self.mesh.triangles[among].astype(np.int64)
+        start = triangles.astype(np.int64)
         end = np.roll(start, -1, axis=1)
         both = at_rim[start] & at_rim[end]
         size = np.int64(len(at_rim))
         row = self._rim_rows[np.searchsorted(self._inner.rim, self._inner.pieces.rim)]
         return not np.isin(start[both] * size + end[both], row[:, 1] * size + row[:, 0]).all()
 
-    def inspected(self, monitor: Monitor) -> JoinedInspection:
-        """Topology, volume and size of the whole.
+    def inspected(self, monitor: Monitor, shells: OpenShells | None = None) -> JoinedInspection:
+        """Topology, volume and size of the whole; with `shells` in place of those of its mesh.
 
         Raises:
             RuntimeError: the parts do not fit together.
         """
-        inner, shells = self.octants, self.shells
+        inner, shells = self.octants, shells or self.shells
         if shells is None:
             found = inspect(self.mesh, monitor)
         else:
@@ -195,10 +195,11 @@ class TrimmedSurface:
         used[shell] = True
         used |= beyond
         vertices = cut.vertices + inner.layout.count - len(inner.rim)
+        triangles = cut.triangles + pieces.triangles
         sound = not (cut.overused_edges or cut.misoriented_edges)
         sound &= shells is not None or not _repeats(self.mesh.triangles)
         quality = Quality(
-            triangles=self.triangles,
+            triangles=triangles,
             vertices=vertices,
             watertight=sound and cut.open_edges == len(pieces.rim),
             open_edges=cut.open_edges - len(pieces.rim),
@@ -208,7 +209,7 @@ class TrimmedSurface:
             shells=int(used.sum()),
             bodies=int((volume[used] > 0).sum()),
             voids=int((volume[used] < 0).sum()),
-            genus=int(used.sum()) - (vertices - self.triangles // 2) // 2 if sound else -1,
+            genus=int(used.sum()) - (vertices - triangles // 2) // 2 if sound else -1,
             volume=float(volume.sum()),
             area=cut.area + pieces.area,
             bounds=self.bounds,

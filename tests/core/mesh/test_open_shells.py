@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from samples import box, sphere
-from volfrep.mesh.float32_repair import without_slivers
+from volfrep.mesh.float32_repair import Repair, repair_slivers
 from volfrep.mesh.open_shells import OpenShells, joined_shells, open_shells
 from volfrep.mesh.quality import Inspection, inspect
 from volfrep.mesh.topology import touching, vertices_of
@@ -40,15 +40,11 @@ def pinched(mesh: TriangleMesh) -> TriangleMesh:
     return TriangleMesh(vertices, mesh.triangles)
 
 
-def after_repair(mesh: TriangleMesh, shells: OpenShells) -> tuple[TriangleMesh, OpenShells | None]:
-    """A mesh without its slivers, and its shells by a look at what is new."""
-    found = without_slivers(mesh, 1e-4)
-    assert found.number is not None
-    assert found.new.any()
-    fresh = vertices_of(found.mesh.triangles[found.new], len(found.mesh.vertices))
-    beside = np.flatnonzero(touching(fresh, found.mesh.triangles))
-    shells_now = shells.rebuilt(mesh, found.mesh, found.origin, found.new, beside, found.number)
-    return found.mesh, shells_now
+def repaired(mesh: TriangleMesh, repair: Repair) -> OpenShells | None:
+    """Shells after a repair, by a look at what is new."""
+    fresh = vertices_of(repair.piece[repair.new], len(mesh.vertices))
+    beside = np.flatnonzero(touching(fresh, mesh.triangles) & repair.stays(mesh))
+    return open_shells(mesh).repaired(mesh, repair, beside)
 
 
 def test_two_halves_of_a_ball_in_a_box_have_the_shells_of_the_whole() -> None:
@@ -61,7 +57,7 @@ def test_two_halves_of_a_ball_in_a_box_have_the_shells_of_the_whole() -> None:
     seam = sorted(set(ours) & set(theirs))
     first = shells[0].at(np.array([ours[v] for v in seam]), parts[0])
     second = shells[1].at(np.array([theirs[v] for v in seam]), parts[1]) + len(shells[0].volume)
-    joined = joined_shells(shells, first, second)
+    joined = joined_shells(shells, first, second, len(mesh.vertices))
     whole = TriangleMesh(
         mesh.vertices, np.concatenate([mesh.triangles[r] for r in halves(mesh)[1]])
     )
@@ -94,31 +90,44 @@ def test_what_is_no_surface_has_no_shells(where: str) -> None:
 
 def test_without_a_sliver_the_figures_are_those_of_a_look_at_all_of_it() -> None:
     mesh = concatenate(pinched(sphere(20.0, 3)), sphere(3.0, 2).reversed())
-    after, shells = after_repair(mesh, open_shells(mesh))
+    repair = repair_slivers(mesh, 1e-4)
+    assert repair.new.any()
+    after = repair.applied(mesh)[0]
     assert len(after.triangles) < len(mesh.triangles)
-    assert same(shells.inspection(after, 0), inspect(after))
+    # Which shell each triangle is of is told as of the mesh as it was.
+    found, expected = repaired(mesh, repair).inspection(after, 0), inspect(after)
+    assert same(replace(found, shell=expected.shell), expected)
 
 
 def test_a_hole_where_a_sliver_was_is_seen() -> None:
     mesh = pinched(sphere(20.0, 3))
-    found = without_slivers(mesh, 1e-4)
-    goes = np.flatnonzero(found.new)[0]
-    stay = np.delete(np.arange(len(found.new)), goes)
-    less = TriangleMesh(found.mesh.vertices, found.mesh.triangles[stay])
-    new = found.new[stay]
-    fresh = vertices_of(less.triangles[new], len(less.vertices))
-    beside = np.flatnonzero(touching(fresh, less.triangles))
-    shells = open_shells(mesh)
-    assert shells.rebuilt(mesh, less, found.origin[stay], new, beside, found.number) is None
+    repair = repair_slivers(mesh, 1e-4)
+    stay = np.delete(np.arange(len(repair.new)), np.flatnonzero(repair.new)[0])
+    origin, new = repair.origin[stay], repair.new[stay]
+    less = replace(repair, piece=repair.piece[stay], origin=origin, new=new)
+    assert repaired(mesh, less) is None
 
 
 def test_a_fold_onto_what_was_there_is_seen() -> None:
     """A new triangle once more between three vertices of others, and one to close it."""
     mesh = sphere(20.0, 3)
-    triangles = np.concatenate([mesh.triangles, mesh.triangles[:1], mesh.triangles[:1, ::-1]])
-    after = TriangleMesh(mesh.vertices, triangles)
-    count = len(mesh.triangles)
-    new = np.arange(len(triangles)) >= count
-    origin = np.r_[np.arange(count), 0, 0]
-    every, number = np.arange(len(triangles)), np.arange(len(mesh.vertices), dtype=np.int32)
-    assert open_shells(mesh).rebuilt(mesh, after, origin, new, every, number) is None
+    piece = mesh.triangles[[0, 0, 0]]
+    piece[2] = piece[2, ::-1]
+    row, none = np.zeros(1, np.int64), np.zeros(0, np.int64)
+    new = np.array([False, True, True])
+    twice = Repair(row, piece, np.zeros(3, np.int64), new, none, np.zeros((0, 3)), none)
+    assert repaired(mesh, twice) is None
+
+
+def test_two_shells_that_become_one_are_seen() -> None:
+    """A triangle of each goes, and the two holes are joined by a tube."""
+    mesh = concatenate(sphere(20.0, 2), sphere(5.0, 2).reversed())
+    rows = np.array([0, len(mesh.triangles) - 1])
+    (a, b, c), (p, q, r) = mesh.triangles[rows]
+    tube = [(a, b, p), (b, r, p), (b, c, r), (c, q, r), (c, a, q), (a, p, q)]
+    none, every = np.zeros(0, np.int64), np.zeros(6, np.int64)
+    joined = Repair(rows, np.array(tube, np.int32), every, every == 0, none, np.zeros((0, 3)), none)
+    after = joined.applied(mesh)[0]
+    assert inspect(after).quality.shells == 1
+    assert inspect(after).quality.watertight
+    assert repaired(mesh, joined) is None

@@ -11,7 +11,7 @@ from volfrep.design.grading import CellMap
 from volfrep.design.spec import LatticeSpec
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
-from volfrep.mesh.float32_repair import without_slivers
+from volfrep.mesh.float32_repair import Repair, repair_slivers
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.output.meshes import write_mesh
@@ -209,12 +209,13 @@ def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
     box = samples.box()
 
     def bad(mesh, tolerance, among=None):
-        vertices = mesh.vertices.copy()
-        vertices[0] += [70.0, 55.0, 40.0]  # a corner through the opposite faces
-        every = np.arange(len(mesh.triangles))
-        return TriangleMesh(vertices, mesh.triangles), every >= 0, every, None
+        every, none = np.arange(len(mesh.triangles)), np.zeros(0, np.int64)
+        through = mesh.vertices[:1] + np.array(
+            [70.0, 55.0, 40.0]
+        )  # a corner through the opposite faces
+        return Repair(every, mesh.triangles, every, every >= 0, every[:1], through, none)
 
-    monkeypatch.setattr("volfrep.trim.finish.without_slivers", bad)
+    monkeypatch.setattr("volfrep.trim.finish.repair_slivers", bad)
     assert tidy(TrimmedSurface(box), 1e-4, Monitor()).mesh is box
 
 
@@ -224,11 +225,12 @@ def test_slivers_away_from_all_octants_take_none_of_these_along(monkeypatch):
 
     def rebuilt(mesh, tolerance, among=None):
         corner = mesh.vertices.sum(axis=1).argmin()
-        new = (mesh.triangles == corner).any(axis=1)
-        return mesh, new, np.arange(len(new)), None
+        rows, none = np.flatnonzero((mesh.triangles == corner).any(axis=1)), np.zeros(0, np.int64)
+        piece, every = mesh.triangles[rows], np.arange(len(rows))
+        return Repair(rows, piece, every, every >= 0, none, np.zeros((0, 3)), none)
 
-    monkeypatch.setattr("volfrep.trim.finish.without_slivers", rebuilt)
-    monkeypatch.setattr(TrimmedSurface, "has_inner_edges", lambda surface, among: True)
+    monkeypatch.setattr("volfrep.trim.finish.repair_slivers", rebuilt)
+    monkeypatch.setattr(TrimmedSurface, "has_inner_edges", lambda surface, triangles: True)
     solid = samples.box((36.0, 36.0, 36.0))
     surface = fill(solid, LatticeSpec("Box", 6.0, 0.5, shell=1.0)).surface
     assert surface.octants is not None
@@ -241,7 +243,11 @@ def test_new_triangles_are_those_that_were_not_there():
     vertices = part.vertices.copy()
     vertices[b] = vertices[a] + 3e-5
     pinched = TriangleMesh(vertices, part.triangles)
-    mesh, new, origin, number = without_slivers(pinched, 1e-4)
+    repair = repair_slivers(pinched, 1e-4)
+    mesh, number = repair.applied(pinched)
+    new = np.pad(repair.new, (len(mesh.triangles) - len(repair.new), 0))
+    stays = np.flatnonzero(repair.stays(pinched))
+    origin = np.concatenate([stays, repair.old[repair.origin]])
     assert len(mesh.triangles) == len(part.triangles) - 2
 
     def places(mesh, rows):

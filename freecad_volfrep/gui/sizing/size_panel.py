@@ -552,8 +552,8 @@ class SizePanel:
 
     def _say(self, text: str, wrong: bool = False) -> None:
         self._said.say(text, wrong)
-        if wrong:
-            # OK is far above: nobody would see it.
+        if text:
+            # OK is far above, and the table below: nobody would see it.
             QtCore.QTimer.singleShot(0, self._show_said)
 
     def _show_said(self) -> None:

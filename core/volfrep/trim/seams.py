@@ -127,13 +127,15 @@ def _near_pairs(first: TriangleMesh, second: TriangleMesh) -> tuple[Ints, Ints]:
         half = high - middle
         order = _neighbourly(middle)
         runs = order[np.minimum(np.arange(-(-count // RUN) * RUN), count - 1)].reshape(-1, RUN)
+        rows, begin = runs.ravel(), np.arange(0, runs.size, RUN)
         run, facet = _touching(
-            np.stack([column[runs].min(axis=1) for column in low], axis=1),
-            np.stack([column[runs].max(axis=1) for column in high], axis=1),
+            np.stack([np.minimum.reduceat(column[rows], begin) for column in low], axis=1),
+            np.stack([np.maximum.reduceat(column[rows], begin) for column in high], axis=1),
             least.T, most.T, others[:, 0], normal,
         )  # fmt: skip
         reach = np.sqrt((half * half).sum(axis=0)) * (1.0 + 1e-9)
         reach = (reach + 1e-12 * max(np.abs(low).max(), np.abs(high).max()))[runs]
+        reach[-1, (count - 1) % RUN + 1 :] = -1.0  # what fills up meets nothing
         middle = np.stack([column[runs] for column in middle], axis=1)
         for k in range(0, len(run), PAIRS_PER_STEP):
             r, f = run[k : k + PAIRS_PER_STEP], facet[k : k + PAIRS_PER_STEP]
@@ -141,8 +143,6 @@ def _near_pairs(first: TriangleMesh, second: TriangleMesh) -> tuple[Ints, Ints]:
             row, place = np.divmod(np.flatnonzero(np.abs(above) <= reach[r]), RUN)
             r, two = r[row], f[row]
             one = runs[r, place]
-            keep = (r + 1 < len(runs)) | (place <= (count - 1) % RUN)
-            one, two = one[keep], two[keep]
             for axis in range(3):
                 keep = low[axis][one] <= most[axis][two]
                 keep &= least[axis][two] <= high[axis][one]
@@ -173,14 +173,18 @@ def _touching(
     low: Floats, high: Floats, least: Floats, most: Floats, on: Floats, normal: Floats
 ) -> tuple[Ints, Ints]:
     """Boxes and facets that touch, by the facets' boxes and planes."""
-    size = max(2.0 * float(np.median(high - low)), float((most - least).max()) / MOST_BINS)
+    size = max(1.5 * float(np.median(high - low)), float((most - least).max()) / MOST_BINS)
     a, b = meeting_boxes(low, high, least, most, size)
-    pairs = np.unique(a * np.int64(len(least)) + b)
-    a, b = np.divmod(pairs, len(least))
-    above = np.einsum("ij,ij->i", 0.5 * (low[a] + high[a]) - on[b], normal[b])
-    reach = np.einsum("ij,ij->i", 0.5 * (high[a] - low[a]), np.abs(normal[b]))
+    # Axis by axis, which numpy takes in faster than rows of three.
+    above, reach = np.zeros((2, len(a)))
+    for axis in range(3):
+        along = normal[:, axis]
+        middle, half = 0.5 * (low[:, axis] + high[:, axis]), 0.5 * (high[:, axis] - low[:, axis])
+        above += (middle[a] - on[b, axis]) * along[b]
+        reach += half[a] * np.abs(along)[b]
     meets = np.abs(above) <= reach * (1.0 + 1e-9) + 1e-12 * np.abs(high).max()
-    return a[meets], b[meets]
+    pairs = np.sort(a[meets] * np.int64(len(least)) + b[meets])
+    return np.divmod(pairs, len(least))
 
 
 def _heights(first: TriangleMesh, second: TriangleMesh, one: Ints, two: Ints) -> Floats:

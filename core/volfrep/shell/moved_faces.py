@@ -67,6 +67,11 @@ def move_faces(faces: PlaneFaces, thickness: float, monitor: Monitor) -> Triangl
     return without_crossings(from_library(cavity), thickness, monitor)
 
 
+def with_short_edges(mesh: TriangleMesh, longest: float) -> TriangleMesh:
+    """The same closed surface in facets whose sides are divided to a length in mm."""
+    return from_library(as_manifold(mesh).refine_to_length(longest).to_mesh64())
+
+
 def _prisms(faces: PlaneFaces, thickness: float) -> list[Any]:
     """A prism below each face, and a little above it."""
     order = np.argsort(faces.face, kind="stable")

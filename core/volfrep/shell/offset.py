@@ -34,7 +34,7 @@ from ..util.types import Bools, Floats
 from .adaptive_contour import find_offset_surface
 from .decimation import simplify
 from .depth import Depth, open_depth
-from .moved_faces import move_faces
+from .moved_faces import move_faces, with_short_edges
 from .sampled_depth import DepthField, cube_grid
 from .smooth_regions import SmoothRegions, find_smooth_regions
 
@@ -47,6 +47,9 @@ TOLERANCE = 0.05
 MEASURED_POINTS = 20_000
 #: Of which so many are measured exactly at a time: facets that are needles are near many.
 POINTS_AT_ONCE = 2000
+#: Facets of moved faces are divided until about so many edges would lie along the part's diagonal:
+#: an octant is cut by all facets that come near it, and needles come near many.
+EDGES_ALONG_DIAGONAL = 40
 #: Spacing of the samples on the outer surface in units of the thickness.
 SAMPLE_SPACING = 0.3
 #: Cubes with all that is kept of them need about this much memory, in bytes a coarsest cube that
@@ -152,6 +155,8 @@ def _move_few_faces(
         monitor.tick()
         depths.append(nearest.closest(points[start : start + POINTS_AT_ONCE])[1])
     error = np.abs(np.concatenate(depths) / thickness - 1.0)
+    longest = float(np.linalg.norm(np.ptp(solid.bounds, axis=0))) / EDGES_ALONG_DIAGONAL
+    mesh = monitor.call(lambda: with_short_edges(mesh, longest))
     return Cavity(mesh, float(error.max()), points[np.argmax(error)])
 
 

@@ -82,7 +82,10 @@ def test_a_thin_skin_of_a_large_sheet_has_its_faces_moved():
     around = sum(np.pi * (radius + t) ** 2 for radius in (4.0, 0.6))
     inner = ((size[0] - 2 * t) * (size[1] - 2 * t) - around) * (size[2] - 2 * t)
     assert wall.mesh.volume == pytest.approx(inner, rel=1e-4)
-    assert len(wall.mesh.triangles) < 2000
+    a, b, c = wall.mesh.corners()
+    longest = np.linalg.norm(np.stack([b - a, c - b, a - c]), axis=2).max()
+    assert longest < np.linalg.norm(np.ptp(solid.bounds, axis=0)) / 15, "no needles along the sheet"
+    assert len(wall.mesh.triangles) < 30_000
 
 
 def test_an_ordinary_skin_is_found_by_cubes():

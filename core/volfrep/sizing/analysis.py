@@ -84,6 +84,8 @@ class Problem:
         around: the skin, varied or not, whose nodes are the structure's last ones; None for none.
         groups: (n,) a number that radii have in common which are to be equal, as their bounds are;
             None where each is its own.
+        spares_stubs: whether the limit of stress leaves out `stubs`: in a search that fills the
+            place of those that cannot bear their load.
     """
 
     structure: Structure
@@ -97,12 +99,18 @@ class Problem:
     skin: SkinThickness | None = None
     around: SkinModel | None = None
     groups: Ints | None = None
+    spares_stubs: bool = False
 
     @property
     def skin_first(self) -> int:
         """The row of the skin's first node among the structure's."""
         skin = self.around
         return len(self.structure.nodes) - (0 if skin is None else len(skin.outside.vertices))
+
+    def stubs(self, radii: Floats) -> Bools:
+        """(m,) struts that are no longer than wide: no radius makes beams of them."""
+        of_struts = self.radii.of_struts(radii)
+        return np.asarray(self.structure.beams.length <= of_struts.sum(axis=1))
 
     def shells(self, radii: Floats) -> Shells | None:
         """The skin's shells with the thickness of a design; None without a skin."""
@@ -242,8 +250,11 @@ def analyse(
     uses: dict[str, float] = {}
     worst: dict[str, tuple[int, int]] = {}
     if limits.stress is not None:
-        strut, _, case = np.unravel_index(int(np.argmax(stress)), stress.shape)
-        uses["stress"] = float(stress.max()) / limits.stress
+        held = stress
+        if problem.spares_stubs:
+            held = np.where(problem.stubs(radii)[:, None, None], 0.0, stress)
+        strut, _, case = np.unravel_index(int(np.argmax(held)), held.shape)
+        uses["stress"] = float(held.max()) / limits.stress
         worst["stress"] = int(case), int(strut)
     on_skin = None if skin is None else skin.stresses(radii, displacements)
     if limits.skin_stress is not None and skin is not None and on_skin is not None:

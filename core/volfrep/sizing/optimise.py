@@ -312,11 +312,13 @@ def scaled_to_limits(problem: Problem, limits: Limits, radii: Floats) -> tuple[A
     return found, found.most_used <= HOLDS
 
 
-def thicken(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, bool]:
+def thicken(
+    problem: Problem, limits: Limits, radii: Floats, *, by_one_factor: bool = True
+) -> tuple[Analysis, bool]:
     """A design whose struts become thicker where limits ask for it, and whether it holds them.
 
-    Where that is not enough, all become thicker by one factor; none becomes thinner. What cannot
-    be held so is left as thick as it could be made there, and not everywhere.
+    Where that is not enough, all become thicker by one factor, if allowed; none becomes thinner.
+    What cannot be held so is left as thick as it could be made there, and not everywhere.
     """
     radii = problem.most_alike(radii)
     low = replace(problem, low=np.maximum(problem.low, radii))
@@ -332,8 +334,8 @@ def thicken(problem: Problem, limits: Limits, radii: Floats) -> tuple[Analysis, 
         wanted = limits if number < _THICKENINGS else aimed
         radii = low.smoothed(next_radii(low, found, changes, wanted))
     found = analyse(low, radii, limits)[0]
-    if found.most_used <= 1.0:
-        return found, True
+    if found.most_used <= 1.0 or not by_one_factor:
+        return found, found.most_used <= 1.0
     scaled, holds = scaled_to_limits(low, limits, found.radii)
     return (scaled, True) if holds else (found, False)
 

@@ -13,7 +13,7 @@ from volfrep.jobs.sizing import Goal, size
 from volfrep.jobs.sizing.governing import governing_skin
 from volfrep.jobs.sizing.part_model import part_model
 from volfrep.jobs.sizing.skin_search import thickness_there
-from volfrep.jobs.sizing.solid_places import solid_places
+from volfrep.jobs.sizing.solid_places import NOWHERE, more_solid, solid_places, solid_stubs
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Moment, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
@@ -133,6 +133,40 @@ def test_the_skin_takes_what_a_strut_as_thick_as_it_may_be_cannot_bear():
     assert (after[near] > radii[near]).all()
     others = np.setdiff1d(np.arange(problem.skin.radii, len(radii)), near)
     assert (after[others] < radii[others]).all()
+
+
+@pytest.mark.costly
+def test_the_place_of_a_strut_that_is_wider_than_long_becomes_solid_where_it_bears_too_much():
+    """Where one factor for all radii and the skin would thicken the whole part for it."""
+    size, thickest = (33.0, 22.0, 22.0), 4.0
+    model, problem, _ = tube(
+        size, lambda region: Force(region, (0, 0, -500.0)), bounds=(0.5, thickest), patch=10.0
+    )
+    stubs = problem.stubs(problem.high)
+    plain = analyse(problem, problem.high, Limits(stress=1.0))[0].stress.max(axis=(1, 2))
+    stub = int(np.argmax(np.where(stubs, plain, 0.0)))
+    more = 10.0 * plain.max() / plain[stub]
+    factor = np.where(np.arange(len(stubs)) == stub, more, 1.0)
+    limits = Limits(stress=2.0 * plain.max(), skin_stress=1e4)
+    problem = replace(problem, stress_factor=factor)
+    assert analyse(problem, problem.high, limits)[0].uses["stress"] == pytest.approx(5.0)
+    problem = replace(problem, spares_stubs=True)
+    spared = analyse(problem, problem.high, limits)[0].uses["stress"]
+    assert spared == pytest.approx(0.5 * plain[~stubs].max() / plain.max())
+    solids = more_solid(problem, limits, problem.high, samples.box(size), NOWHERE, thickest)
+    structure = problem.structure
+    place = structure.nodes[structure.beams.struts[stub]].mean(axis=0)
+    near = problem.skin.nearest(place[None])[0]
+    assert set(np.flatnonzero(solids.thickness)) == set(near)
+    # As the wall beside it asks for: to fill the part from side to side takes half its width.
+    assert thickest <= solids.deepest < 0.5 * size[2]
+    # So it does once the skin is laid, which may leave more of the strut; and no second time.
+    laid = replace(model.problem, stress_factor=factor)
+    found = analyse(laid, laid.high, limits)[0]
+    then = replace(model, problem=laid), found, limits, samples.box(size), problem.skin
+    again = solid_stubs(*then, NOWHERE, thickest)
+    assert set(np.flatnonzero(again.thickness)) == set(near)
+    assert solid_stubs(*then, again, thickest) is again
 
 
 def test_a_skin_that_ended_even_is_compared_with_what_came_out():

@@ -63,6 +63,7 @@ from .skin_search import (
     thickness_there,
     weighed,
     with_ratios,
+    with_solid_stubs,
 )
 from .solid_places import filled_notes, solid_places
 from .thin_struts import (
@@ -87,7 +88,7 @@ MARGIN, SKINS, SKIN_HOLDS = 0.98, 2, 1.01
 PROVED_SKINS, CHANGES = 3, 0.98
 #: Struts that grow by more than this with the skin as it is are searched for once more.
 GROWN = 1.05
-#: The part with its skin is made so many times at most, until it has the mass asked for.
+#: The part with its skin is made so many times at most, until its mass and solid places are right.
 WEIGHINGS, WEIGHED = 4, 0.005
 
 
@@ -379,8 +380,13 @@ def _with_sized_skin(
             model = with_ratios(part_model(part, task.loads, goal, task.cache), task.ratios)
             first = design.radii_at(model.wireframe.nodes)
             first = np.clip(first, model.problem.low, model.problem.high)
-            if design.volume is None or weighing == WEIGHINGS - 1:
+            if weighing == WEIGHINGS - 1:
                 break
+            if design.volume is None:
+                if (more := with_solid_stubs(design, model, goal, infill.solid)) is None:
+                    break
+                design = more
+                continue
             volume = model.problem.radii.volume(first) + model.skin_volume
             if abs(volume / design.volume - 1.0) < WEIGHED:
                 break

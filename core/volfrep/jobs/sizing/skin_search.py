@@ -35,7 +35,7 @@ from ..infill import Infill
 from .goal import Goal
 from .governing import Governing, governing_skin
 from .part_model import given_radii, part_model, thickness_of_skin
-from .solid_places import NOWHERE, SolidPlaces, more_solid
+from .solid_places import NOWHERE, SolidPlaces, more_solid, solid_stubs
 
 #: Thicknesses are stored in steps of this, mm, as files keep them.
 STEP = 1e-6
@@ -140,7 +140,8 @@ def design_skin(
             model, thickness if callable(thickness) else _constant(thickness), (low, high), patch,
             goal.mirrors, solids.depth,
         )  # fmt: skip
-        problem = varied.problem
+        fills = goal.solid_places and limits.any and np.isfinite(patch)
+        problem = replace(varied.problem, spares_stubs=fills)
         first = np.clip(np.concatenate([radii, roots]), problem.low, problem.high)
         if not goal.limits.any and goal.volume is None:
             goal = replace(goal, volume=problem.radii.volume(first))
@@ -152,7 +153,7 @@ def design_skin(
         steps += sized.steps
         count = len(model.wireframe.nodes)
         more = solids
-        if goal.solid_places and goal.limits.any and np.isfinite(patch):
+        if fills:
             more = more_solid(problem, limits, sized.analysis.radii, solid, solids, high)
         found = sized.analysis.radii
         spec = replace(spec, shell=low, skin_field=_field(problem, found, goal.mirrors, more))
@@ -160,7 +161,7 @@ def design_skin(
             searches = min(max(searches, number + 2), _MOST_SEARCHES)
         even = None
         if number == searches - 1 and goal.limits.any:
-            even = _even(problem, limits)
+            even = _even(replace(problem, spares_stubs=False), limits)
         design = SkinDesign(
             spec, model.wireframe.nodes, found[:count], sized, steps, even, limits.skin_stress,
             problem, found, goal.volume, more, high,
@@ -226,6 +227,36 @@ def weighed(design: SkinDesign, volume: float, mirrors: Mirrors | None) -> SkinD
     field = _field(problem, found, mirrors, design.solid)
     spec = replace(design.spec, skin_field=field)
     return replace(design, spec=spec, radii=found[: len(design.nodes)], variables=found)
+
+
+def with_solid_stubs(
+    design: SkinDesign, model: SizingModel, goal: Goal, part: TriangleMesh
+) -> SkinDesign | None:
+    """A design whose part is solid where struts wider than long cannot bear their load.
+
+    Args:
+        design: with a skin.
+        model: of the part with that skin as it was laid.
+        goal: that the design is held to.
+        part: the solid.
+
+    Returns:
+        None where no place is to become solid.
+    """
+    skin = design.problem.skin
+    assert skin is not None
+    if not (goal.solid_places and goal.limits.stress and len(skin.points) > 1):
+        return None
+    first = design.radii_at(model.wireframe.nodes)
+    first = np.clip(first, model.problem.low, model.problem.high)
+    found, holds = thicken(model.problem, goal.limits, first, by_one_factor=False)
+    if holds:
+        return None
+    solids = solid_stubs(model, found, goal.limits, part, skin, design.solid, design.thickest)
+    if solids is design.solid:
+        return None
+    field = _field(design.problem, design.variables, goal.mirrors, solids)
+    return replace(design, spec=replace(design.spec, skin_field=field), solid=solids)
 
 
 def _constant(thickness: float) -> Callable[[Floats], Floats]:

@@ -16,9 +16,10 @@ from scipy.spatial import cKDTree
 
 from ...mesh.topology import pieces_of
 from ...mesh.triangle_mesh import TriangleMesh
-from ...sizing.analysis import Limits, Problem, analyse
+from ...sizing.analysis import Analysis, Limits, Problem, analyse
 from ...sizing.model import SizingModel
 from ...sizing.optimise import next_radii
+from ...sizing.skin_thickness import SkinThickness
 from ...spatial.even_points import even_points
 from ...spatial.medial_balls import wall_thickness
 from ...spatial.proximity import closest_points
@@ -75,6 +76,8 @@ def more_solid(
 ) -> SolidPlaces:
     """What is solid, with those places where a design wants more than the thickest skin.
 
+    Where that is for a strut wider than long, its own place is filled, and no more below.
+
     Args:
         problem: whose skin is varied.
         limits: of the design.
@@ -105,8 +108,76 @@ def more_solid(
     entries = skin.shares.tocoo()
     shells = entries.row[entries.data > _SAY]
     walls = np.zeros(len(skin.points))
-    np.maximum.at(walls, entries.col[entries.data > _SAY], wall_thickness(part, middles)[shells])
-    return SolidPlaces(skin.points, np.where(full, _FILLS * walls, before.depth(skin.points)))
+    below = wall_thickness(part, middles)
+    np.maximum.at(walls, entries.col[entries.data > _SAY], below[shells])
+    filled = np.where(full, _FILLS * walls, before.depth(skin.points))
+    # What the skin does not ask for itself is for a stub, and no deeper than there.
+    stubs = _about_stubs(problem, found, limits, skin, middles, below)
+    if limits.skin_stress is not None and found.skin_stress is not None:
+        asks = skin.largest_near(skin.largest(found.skin_stress)) > limits.skin_stress
+        some = full & ~asks & (stubs > 0.0)
+        filled[some] = np.maximum(thickest, _FILLS * stubs[some])
+    return SolidPlaces(skin.points, filled)
+
+
+def solid_stubs(
+    model: SizingModel,
+    found: Analysis,
+    limits: Limits,
+    part: TriangleMesh,
+    skin: SkinThickness,
+    before: SolidPlaces,
+    thickest: float,
+) -> SolidPlaces:
+    """What is solid, with the places of struts wider than long that cannot bear their load.
+
+    Args:
+        model: with a skin as it was laid.
+        found: its struts, each as thick as it asks for or may be.
+        limits: of the design.
+        part: whose walls are filled.
+        skin: where its thickness was chosen.
+        before: what was solid already.
+        thickest: mm, that the skin may be.
+
+    Returns:
+        `before` itself where there is nothing more.
+    """
+    assert model.skin is not None
+    middles = model.skin.outside.vertices[model.skin.shells.triangles].mean(axis=1)
+    below = wall_thickness(part, middles)
+    stubs = _about_stubs(model.problem, found, limits, skin, middles, below)
+    was = before.depth(skin.points)
+    more = np.where((stubs > 0.0) & (was == 0.0), np.maximum(thickest, _FILLS * stubs), was)
+    return before if np.array_equal(more, was) else SolidPlaces(skin.points, more)
+
+
+def _about_stubs(
+    problem: Problem,
+    found: Analysis,
+    limits: Limits,
+    skin: SkinThickness,
+    middles: Floats,
+    below: Floats,
+) -> Floats:
+    """(p,) mm, about struts wider than long that a design stresses beyond the limit, 0 elsewhere.
+
+    At the points of the skin's thickness nearest to such a strut: the thickest wall beside it, of
+    those below the middles of shells.
+    """
+    result = np.zeros(len(skin.points))
+    if limits.stress is None:
+        return result
+    over = found.stress.max(axis=(1, 2)) > limits.stress
+    rows = np.flatnonzero(problem.stubs(found.radii) & over)
+    structure = problem.structure
+    places = structure.nodes[structure.beams.struts[rows]].mean(axis=1)
+    reach = problem.radii.of_struts(found.radii)[rows].sum(axis=1)
+    tree = cKDTree(middles)
+    for place, far in zip(places, reach.tolist(), strict=True):
+        beside = below[tree.query_ball_point(place, far)].max(initial=0.0)
+        np.maximum.at(result, skin.nearest(place[None])[0], beside)
+    return result
 
 
 def solid_places(

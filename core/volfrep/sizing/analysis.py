@@ -444,7 +444,8 @@ def _pressed_change(
     work = shells.pressed_work(around.of_middle(mode[first:, :, None])[:, :, 0])
     if problem.skin is not None:
         even = shells.in_plane(around.of_middle(displacements[first:, :, None]))[:, :, 0]
-        own = problem.skin.to_variables(radii, (work * even).sum(axis=1)[:, None])[:, 0]
+        change = shells.filled * (work * even).sum(axis=1)
+        own = problem.skin.to_variables(radii, change[:, None])[:, 0]
     middle = np.zeros((len(around.middle), 6))
     np.add.at(middle, shells.triangles, shells.pressed_gradient(work))
     nodal[first:] = around.to_outside(middle)

@@ -74,6 +74,8 @@ class Shells:
         thickness: (t,) mm.
         material: of all.
         panels: what of them bends.
+        filled: (t,) how many times as thick as `thickness` what is there would be if it had the
+            triangle's area all through: less where it narrows with depth.
     """
 
     triangles: Ints
@@ -82,6 +84,12 @@ class Shells:
     thickness: Floats
     material: Elastic
     panels: Panels
+    filled: Floats
+
+    @property
+    def acting(self) -> Floats:
+        """(t,) mm, what of the thickness acts."""
+        return self.thickness * self.filled
 
     @property
     def area(self) -> Floats:
@@ -94,8 +102,8 @@ class Shells:
         flat[:, _IN_PLANE[:, None], _IN_PLANE] = self._membrane()
         bent = np.zeros((len(self.panels.of), 18, 18))
         bent[:, _ACROSS[:, None], _ACROSS] = self._bending()
-        weight = self.material.density * self.area * self.thickness / 12.0
-        inertia = weight * self.thickness**2 / 12.0
+        weight = self.material.density * self.area * self.acting / 12.0
+        inertia = weight * self.acting**2 / 12.0
         each = np.zeros((len(weight), 6))
         each[:, :3], each[:, 3:] = weight[:, None], inertia[:, None]
         shared = (1.0 + np.eye(3))[None, :, :, None, None] * (each[:, :, None] * np.eye(6))[
@@ -126,8 +134,9 @@ class Shells:
         summed = np.zeros((count, 9, 9))
         np.add.at(summed, of, whole.reshape(-1, 9, 9))
         bent[:, _ACROSS[:, None], _ACROSS] = summed
-        weight = self.material.density * self.area / 12.0
+        weight = self.material.density * self.area * self.filled / 12.0
         shared = (1.0 + np.eye(3))[None, :, :, None, None] * weight[:, None, None, None, None]
+        turned = shared * (self.filled**2 / 12.0)[:, None, None, None, None]
         moves, turns = np.diag([1.0] * 3 + [0.0] * 3), np.diag([0.0] * 3 + [1.0] * 3)
         return UnitBlocks(
             np.repeat(self.triangles, 3, axis=1).ravel(),
@@ -135,7 +144,7 @@ class Shells:
             _split(flat, self.axes),
             _split(bent, self.axes),
             (shared * moves).reshape(-1, 6, 6),
-            (shared * turns / 12.0).reshape(-1, 6, 6),
+            (turned * turns).reshape(-1, 6, 6),
         )
 
     def stress_blocks(self) -> tuple[Floats, Floats]:
@@ -149,7 +158,7 @@ class Shells:
         of, plane = self.panels.of, self._plane_stress()
         curved = self._curvature(np.full(2, 1.0 / 3.0)) @ self._led()
         share = 0.5 * _area(self.panels.corners) / self.area[of]
-        each = (share[:, None, None] * (plane @ curved)).reshape(-1, 3, 3, 3)
+        each = ((share * self.filled[of])[:, None, None] * (plane @ curved)).reshape(-1, 3, 3, 3)
         summed = np.zeros((len(self.area), 3, 9))
         whole = np.einsum("bsai,bam->bsmi", each, self._is_at(), optimize=True)
         np.add.at(summed, of, whole.reshape(-1, 3, 9))
@@ -177,7 +186,7 @@ class Shells:
 
         Of displacements (n, 6), which may be so many times as large.
         """
-        force = self.thickness[:, None] * self.in_plane(displacements[:, :, None])[:, :, 0]
+        force = self.acting[:, None] * self.in_plane(displacements[:, :, None])[:, :, 0]
         slopes = self._slopes()
         one, two, both = force.T
         way = np.stack([np.stack([one, both], axis=1), np.stack([both, two], axis=1)], axis=1)
@@ -199,7 +208,7 @@ class Shells:
 
         In global axes, to the displacements of the corners.
         """
-        stress = (self.thickness[:, None] * force) @ self._plane_stress()
+        stress = (self.acting[:, None] * force) @ self._plane_stress()
         local = np.einsum("tsi,ts->ti", self._strains(), stress).reshape(-1, 3, 2, 3)
         return np.asarray(np.einsum("tij,tcgi->tcgj", self.axes, local).reshape(-1, 3, 6))
 
@@ -250,7 +259,7 @@ class Shells:
         (x1, x2, x3), (y1, y2, y3) = self.corners[..., 0].T, self.corners[..., 1].T
         x12, x23, x31, y12, y23, y31 = x1 - x2, x2 - x3, x3 - x1, y1 - y2, y2 - y3, y3 - y1
         x21, x32, x13, y21, y32, y13 = -x12, -x23, -x31, -y12, -y23, -y31
-        area, thick, nil = self.area, self.thickness, np.zeros(len(x1))
+        area, thick, nil = self.area, self.acting, np.zeros(len(x1))
         alpha = 1.5
         lumped = np.array(
             [
@@ -314,7 +323,7 @@ class Shells:
     def _bending(self) -> Floats:
         """(b, 9, 9) across the plane: displacement and two turns of the panels' nodes."""
         plane, led = self._plane_stress(), self._led()
-        thickness, area = self.thickness[self.panels.of], _area(self.panels.corners)
+        thickness, area = self.acting[self.panels.of], _area(self.panels.corners)
         rigidity = (thickness**3 / 12.0 * area / 3.0)[:, None, None]
         result = np.zeros((len(thickness), 9, 9))
         for place in _PLACES:
@@ -402,6 +411,7 @@ def shells_of(
     *,
     clear: Floats | None = None,
     pads: Floats | None = None,
+    filled: Floats | None = None,
 ) -> Shells:
     """Triangles between nodes (n, 3), mm.
 
@@ -413,6 +423,7 @@ def shells_of(
         clear: (t, 3, 3) where each triangle's corners begin to bend, mm, in its plane; None for at
             the nodes.
         pads: (n,) about each node so far nothing bends either, mm; None for nowhere.
+        filled: (t,) how many times as thick each acts; None for once.
     """
     triangles = triangles.astype(np.int64)
     a, b, c = nodes[triangles].swapaxes(0, 1)
@@ -427,7 +438,8 @@ def shells_of(
     pad = np.zeros(triangles.shape) if pads is None else pads[triangles]
     panels = _panels(triangles, corners, begin, pad)
     thickness = np.broadcast_to(thickness, len(a))
-    return Shells(triangles, axes, corners, thickness, material, panels)
+    filled = np.ones(len(a)) if filled is None else filled
+    return Shells(triangles, axes, corners, thickness, material, panels, filled)
 
 
 def _panels(triangles: Ints, corners: Floats, begin: Floats, pads: Floats) -> Panels:

@@ -5,6 +5,9 @@ Supports and loads are on the outside, and so are the shells' nodes: from each a
 the middle, as a shell's normal is rigid. Walls that end at a face that is held reach to it: there
 the middle is taken to lie on the outside.
 
+Under what is round, such as a slender bar, the inner side of a skin is smaller than its outside:
+there the shells lie at the centroid of what is below them, with as much of it.
+
 Where the part is thinner than two skins it is solid: there the shells of both sides have half of
 its thickness each, and the material between them holds them together.
 
@@ -29,7 +32,7 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.medial_balls import wall_thickness
 from ..spatial.proximity import closest_points
 from ..spatial.rays import segment_crossings
-from ..util.linalg import cross_matrix
+from ..util.linalg import cross_matrix, normalize
 from ..util.peaks import most_but_peaks
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
@@ -45,6 +48,12 @@ _SOLID = 2.02
 #: What walls have in common counts as rigid by this share, and takes no more than so much of a
 #: triangle's inscribed circle. (Hollow boxes of solid bricks say so.)
 _COMMON, _RIGID_CORNER = 0.5, 0.8
+#: The centroid of what lies below a vertex is so deep, of its thickness: of a cone, of a plane.
+_CENTROID = 0.25, 0.5
+#: The mean area is so many times as large as that there: as a cone's, and as about a narrow hole.
+_FILLED = 0.55, 1.2
+#: Walls meet at an angle where a triangle is tilted by more against the surface about its corner.
+_SHARP_TILT = np.cos(np.radians(20.0))
 #: By so much of their spread about a triangle is a slope of the stress held back.
 _NO_SLOPE = 1e-3
 
@@ -304,11 +313,16 @@ def skin_model(
     local = np.minimum(wanted, 0.5 * thickness_below)
     kept = triangles[used]
     walls = kept, normal[used], corner_angles(corners[used])
-    middle = _inwards(outside.vertices, *walls, 0.5 * local)
-    inside = 2.0 * middle - outside.vertices
+    inside = 2.0 * _inwards(outside.vertices, *walls, 0.5 * local) - outside.vertices
+    # Where the surface turns sharply a wall's end is upright, and `_clear` tells what is common.
+    upright = corners[used] - local[kept][:, :, None] * normal[used][:, None, :]
+    is_sharp = _turned(outside.vertices, *walls)[:, :, None]
+    share, filled = _centroid(corners[used], np.where(is_sharp, upright, inside[kept]), kept)
+    depth = local * np.append(share, np.full(len(local) - len(share), 0.5))
+    middle = _inwards(outside.vertices, *walls, depth)
     if fixed is not None and fixed.any():
         stays = fixed[closest_points(solid, corners[used].mean(axis=1))[2]]
-        middle = _inwards(outside.vertices, *walls, 0.5 * local, stays)
+        middle = _inwards(outside.vertices, *walls, depth, stays)
     clear = _clear(outside.vertices, middle, kept, normal[used], local)
     pads = np.zeros(len(middle))
     if len(feet.radii):
@@ -316,13 +330,15 @@ def skin_model(
         near = np.unique(kept)[own.query(closest_points(outside, feet.places)[0])[1]]
         np.maximum.at(pads, near, feet.radii)
     thick = local[kept].mean(axis=1)
-    shells = shells_of(middle, kept, thick, material, clear=clear, pads=pads)
+    shells = shells_of(middle, kept, thick, material, clear=clear, pads=pads, filled=filled)
     blocks, joined, between = shells.blocks(), NOT_JOINED, NOTHING_BETWEEN
     solid_nodes = np.flatnonzero(thickness_below < _SOLID * wanted)
     if len(solid_nodes) and len(kept):
         shares = np.repeat(shells.area / 3.0, 3)
         area = np.bincount(kept.ravel(), shares, len(middle)).astype(np.float64)
-        between, joined = _joined_shells(middle, kept, solid_nodes, thickness_below, area, material)
+        between, joined = _joined_shells(
+            middle, kept, solid_nodes, thickness_below - 2.0 * depth, area, material
+        )
         blocks = Blocks(
             np.concatenate([blocks.rows, between.rows]),
             np.concatenate([blocks.columns, between.columns]),
@@ -470,6 +486,50 @@ def _inwards(
     return np.asarray(vertices + move * limit[:, None])
 
 
+def _turned(outside: Floats, triangles: Ints, normal: Floats, weight: Floats) -> Bools:
+    """(t, 3) at which corners of triangles the surface turns sharply."""
+    mean = np.zeros_like(outside)
+    for corner in range(3):
+        np.add.at(mean, triangles[:, corner], normal * weight[:, corner, None])
+    tilt = np.einsum("tci,ti->tc", normalize(mean)[triangles], normal)
+    return np.asarray(tilt < _SHARP_TILT)
+
+
+def _centroid(outside: Floats, inside: Floats, triangles: Ints) -> tuple[Floats, Floats]:
+    """How deep the centroid is of what lies between two surfaces, (t, 3, 3) triangles each.
+
+    Half-way under a plane; less where the inner side is smaller, as of round bars: a third in a
+    solid one. Areas at three depths say all of what lies between, as they are quadratic.
+
+    Args:
+        outside: mm.
+        inside: mm, where each of their corners is on the other side.
+        triangles: (t, 3) their vertices.
+
+    Returns:
+        (k,) parts of the thickness, about each vertex up to the last that triangles have; and (t,)
+        how many times as large as the area at that depth the mean area is.
+    """
+    normal = remesh.unit_normals(outside)
+
+    def area(depth: Floats) -> Floats:
+        places = outside + depth[:, :, None] * (inside - outside)
+        seen = 0.5 * np.einsum("ti,ti->t", remesh.normals(places), normal)
+        return np.asarray(np.maximum(seen, 1e-9))
+
+    outer, half, inner = (area(np.full(triangles.shape, depth)) for depth in (0.0, 0.5, 1.0))
+    whole, moment = outer + 4.0 * half + inner, 2.0 * half + inner
+    size = 1 + int(triangles.max(initial=0))
+    total, first = (
+        np.bincount(triangles.ravel(), np.repeat(each, 3), size) for each in (whole, moment)
+    )
+    known = total > 0.0
+    share = np.where(known, np.clip(first / np.where(known, total, 1.0), *_CENTROID), 0.5)
+    filled = np.clip(whole / 6.0 / area(share[triangles]), *_FILLED)
+    # Under planes both are what they are, whatever the last bits of areas say.
+    return np.asarray(np.round(share, 9)), np.asarray(np.round(filled, 9), np.float64)
+
+
 def _clear(
     outside: Floats, middle: Floats, triangles: Ints, normal: Floats, depth: Floats
 ) -> Floats:
@@ -499,14 +559,14 @@ def _joined_shells(
     middle: Floats,
     triangles: Ints,
     nodes: Ints,
-    thickness_below: Floats,
+    gap: Floats,
     area: Floats,
     material: Elastic,
 ) -> tuple[Blocks, Joined]:
     """The material between two shells as springs from each node to the shell beyond.
 
     Half of it at each side: E A / d against being pulled apart and G A / d against sliding, with
-    d between the shells. Both are carried to the point half-way, so that bending of the two
+    the gap d between the shells. Both are carried to the point half-way, so that bending of the two
     together is that of one plate.
     """
     mean = np.zeros_like(middle)
@@ -516,7 +576,7 @@ def _joined_shells(
         np.add.at(mean, triangles[:, corner], way)
     mean /= np.maximum(np.linalg.norm(mean, axis=1), 1e-300)[:, None]
     surface = TriangleMesh(middle, triangles.astype(np.int32))
-    start, gap = middle[nodes], 0.5 * thickness_below[nodes]
+    start, gap = middle[nodes], gap[nodes]
     foot, away, triangle = closest_points(surface, start - gap[:, None] * mean[nodes])
     beyond = triangles[triangle]
     faces = np.einsum("ij,ij->i", way[triangle], mean[nodes]) < 0.0

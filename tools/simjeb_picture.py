@@ -69,7 +69,7 @@ def main() -> None:
 
 def _design(report: Path) -> tuple[float, float, float]:
     """Mass in g, largest stress in MPa (CalculiX's, where it is larger) and displacement in mm."""
-    told = json.loads(report.read_text(encoding="utf-8"))
+    told = json.loads(report.read_text(encoding="utf-8"))["sizing"]
     made = told["masses_g"]["struts"] + told["masses_g"]["skin"]
     proved = told["calculix"]["uses"]
     used = max(told["uses"][name] for name in ("stress", "skin stress"))

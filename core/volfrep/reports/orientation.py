@@ -20,6 +20,7 @@ from scipy.spatial import ConvexHull
 from ..mesh.remesh import facet_normals
 from ..mesh.topology import pieces_of
 from ..mesh.triangle_mesh import TriangleMesh, compact
+from ..spatial.even_points import even_directions
 from ..util.errors import VolfrepError
 from ..util.linalg import normalize, rotation
 from ..util.numbers import number, place_text
@@ -175,7 +176,7 @@ def orient(
     monitor = Monitor(progress)
     with monitor.stage("directions", 0.0, 1.0):
         judge = _Judge(mesh, inclination)
-        sphere = _sphere(DIRECTIONS)
+        sphere = even_directions(DIRECTIONS)
         ranked = sphere[np.argsort([judge.rough(up) for up in sphere], kind="stable")]
         monitor.tick(0.2)
         fine = [judge.refined(up) for up in _distinct(ranked, REFINED)]
@@ -348,15 +349,6 @@ def _in_rooms(mesh: TriangleMesh) -> Bools:
     own = piece[first]
     volume = np.bincount(own, mesh.signed_volumes(), count)
     return np.asarray(volume[own] < 0.0)
-
-
-def _sphere(count: int) -> Floats:
-    """(count, 3) unit vectors spread over the sphere (Fibonacci's spiral)."""
-    k = np.arange(count) + 0.5
-    z = 1.0 - 2.0 * k / count
-    turn = math.pi * (1.0 + math.sqrt(5.0)) * k
-    flat = np.sqrt(1.0 - z**2)
-    return np.stack([flat * np.cos(turn), flat * np.sin(turn), z], axis=1)
 
 
 def _distinct(ranked: Floats, count: int) -> list[Floats]:

@@ -21,6 +21,7 @@ import numpy as np
 from ..design.skins.plane_faces import PlaneFaces
 from ..mesh.booleans import as_manifold, from_library
 from ..mesh.triangle_mesh import TriangleMesh
+from ..spatial.even_points import even_directions
 from ..util.linalg import along, normalize
 from ..util.manifold import manifold_library
 from ..util.progress import Monitor
@@ -118,7 +119,7 @@ def _balls(faces: PlaneFaces, thickness: float) -> list[Floats]:
     triangle, corner = np.nonzero(np.isin(faces.solid.triangles, faces.corners))
     at = faces.solid.triangles[triangle, corner].astype(np.int64)
     pairs = np.unique(np.stack([at, faces.face[triangle]], axis=1), axis=0)
-    every = _even_directions(BALL_POINTS)
+    every = even_directions(BALL_POINTS)
     start = np.searchsorted(pairs[:, 0], np.append(faces.corners, len(faces.solid.vertices)))
     result = []
     for k, vertex in enumerate(faces.corners):
@@ -131,12 +132,3 @@ def _balls(faces: PlaneFaces, thickness: float) -> list[Floats]:
         ways = np.concatenate([down, some, mean[None], -OUTSIDE * mean[None]])
         result.append(faces.solid.vertices[vertex] + thickness * ways)
     return result
-
-
-def _even_directions(count: int) -> Floats:
-    """(count, 3) unit vectors, evenly over a sphere (Fibonacci's spiral)."""
-    k = np.arange(count) + 0.5
-    z = 1.0 - 2.0 * k / count
-    around = np.pi * (1.0 + np.sqrt(5.0)) * k
-    across = np.sqrt(1.0 - z**2)
-    return np.stack([across * np.cos(around), across * np.sin(around), z], axis=1)

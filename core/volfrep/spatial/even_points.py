@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Points that fill a square or a cube evenly: Sobol's sequence, scrambled.
+"""Points that fill a square or a cube evenly, Sobol's sequence, scrambled, or a sphere.
 
-scipy has it for any number of dimensions, in a part that takes as long to load as a small lattice
-takes to be made. These are the points of its `qmc.Sobol`.
+scipy has the sequence for any number of dimensions, in a part that takes as long to load as a small
+lattice takes to be made. These are the points of its `qmc.Sobol`.
 """
 
 from __future__ import annotations
@@ -52,3 +52,12 @@ def _directions(dimension: int) -> Ints:
         else:
             numbers.append(2 * numbers[-1] ^ numbers[-1] if dimension else 1)
     return np.array(numbers, np.int64) << np.arange(BITS, dtype=np.int64)[::-1]
+
+
+def even_directions(count: int) -> Floats:
+    """(count, 3) unit vectors, evenly over a sphere (Fibonacci's spiral)."""
+    k = np.arange(count) + 0.5
+    z = 1.0 - 2.0 * k / count
+    turn = np.pi * (1.0 + np.sqrt(5.0)) * k
+    flat = np.sqrt(1.0 - z**2)
+    return np.stack([flat * np.cos(turn), flat * np.sin(turn), z], axis=1)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from volfrep.spatial.even_points import even_points
+from volfrep.spatial.even_points import even_directions, even_points
 
 
 @pytest.mark.parametrize("seed", [1, 5])
@@ -40,3 +40,13 @@ def test_scipy_stats_is_not_loaded_for_them() -> None:
         "sys.exit('scipy.stats' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_directions_lie_evenly_over_a_sphere() -> None:
+    ways = even_directions(500)
+    assert np.allclose(np.linalg.norm(ways, axis=1), 1.0)
+    # As many lie in every cap as its share of the sphere, about whichever axis.
+    for axis in (*np.eye(3), np.full(3, 3.0**-0.5)):
+        for height in (-0.5, 0.0, 0.7):
+            inside = np.mean(ways @ axis > height)
+            assert inside == pytest.approx(0.5 * (1.0 - height), abs=0.01)

@@ -44,6 +44,7 @@ from volfrep.design.profile import Profile
 from volfrep.io.solid import check_solid, read_triangles
 from volfrep.io.write.stl import as_read
 from volfrep.jobs.infill import Infill
+from volfrep.mesh.booleans import from_library
 from volfrep.mesh.float32_repair import shortest_edge
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
@@ -405,10 +406,7 @@ def in_a_process(seed: int, number: int) -> dict[str, Any]:
 
 def _import_all() -> None:
     """Import what jobs use, once and not in each one's process."""
-    raw = manifold3d.Manifold.cube((1.0, 1.0, 1.0)).to_mesh64()
-    cube = TriangleMesh(
-        np.asarray(raw.vert_properties, float)[:, :3], np.asarray(raw.tri_verts, np.int32)
-    )
+    cube = from_library(manifold3d.Manifold.cube((1.0, 1.0, 1.0)).to_mesh64())
     with tempfile.TemporaryDirectory() as folder:
         for suffix in SUFFIXES:
             write_mesh(cube, Path(folder) / f"cube{suffix}")

@@ -40,4 +40,9 @@ def inclinations(lattice: Graph, up: Floats) -> Floats:
 
 def is_flat(lattice: Graph, up: Floats, inclination: float) -> Bools:
     """(m,) which struts lie flatter than so many degrees, those of just as many not."""
-    return np.asarray(inclinations(lattice, up) < inclination - _EXACT)
+    return is_below(inclinations(lattice, up), inclination)
+
+
+def is_below(angle: Floats, inclination: float) -> Bools:
+    """(m,) which angles are less than one, degrees, those that are just as large not."""
+    return np.asarray(angle < inclination - _EXACT)

@@ -162,15 +162,11 @@ def repair_slivers(mesh: TriangleMesh, tolerance: float, among: Ints | None = No
     if not len(thin):
         return NO_REPAIR
     rest = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
-    differs = _differ(rest.places, mesh.vertices[rest.stay])
-    moved = np.zeros(len(mesh.vertices), bool)
-    moved[rest.stay[differs]] = True
+    differs, new = rest.differences(mesh)
     # Vertices at the border of what was looked at are those of other triangles, too, and stay.
-    old = mesh.triangles[rest.old]
     return Repair(
-        rest.old, rest.piece, rest.origin,
-        _differ(rest.piece, old[rest.origin]) | touching(moved, rest.piece),
-        rest.stay[differs], rest.places[differs], np.setdiff1d(old, rest.piece),
+        rest.old, rest.piece, rest.origin, new, rest.stay[differs], rest.places[differs],
+        np.setdiff1d(mesh.triangles[rest.old], rest.piece),
     )  # fmt: skip
 
 
@@ -294,11 +290,16 @@ class _Rest(NamedTuple):
         untouched = np.ones(len(mesh.triangles), bool)
         untouched[self.old] = False
         stayed = np.flatnonzero(untouched)
+        new = np.pad(self.differences(mesh)[1], (len(stayed), 0))
+        return stayed, new, np.concatenate([stayed, self.old[self.origin]])
+
+    def differences(self, mesh: TriangleMesh) -> tuple[Bools, Bools]:
+        """Which vertices that stay move, and which triangles were not there, or elsewhere."""
         moved = np.zeros(len(mesh.vertices), bool)
-        moved[self.stay] = _differ(self.places, mesh.vertices[self.stay])
-        was = self.old[self.origin]
-        new = _differ(self.piece, mesh.triangles[was]) | touching(moved, self.piece)
-        return stayed, np.pad(new, (len(stayed), 0)), np.concatenate([stayed, was])
+        differs = _differ(self.places, mesh.vertices[self.stay])
+        moved[self.stay] = differs
+        was = mesh.triangles[self.old[self.origin]]
+        return differs, _differ(self.piece, was) | touching(moved, self.piece)
 
 
 def _without(

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from ..design.spec import LatticeSpec
-from ..grid.inclination import inclinations, is_flat, unit_direction
-from ..grid.strut_graph import Graph, Wireframe
+from ..grid.inclination import inclinations, is_below, unit_direction
+from ..grid.strut_graph import Wireframe
 from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import inside_points
@@ -229,7 +229,7 @@ def print_report(
     total = max(float(length.sum()), 1e-300)
     edges = np.arange(0, 90 + CLASS, CLASS)
     classes = np.histogram(angle, edges, weights=length)[0] / total
-    overhanging = np.where(overhanging_struts(lattice, length, up, process), length, 0.0)
+    overhanging = np.where(overhanging_struts(angle, length, process), length, 0.0)
     flat = np.where(angle < FLAT, length, 0.0)
     overhangs = overhanging_facets(mesh, up, process.inclination)
     report = PrintReport(
@@ -304,17 +304,15 @@ def print_forecast(
     )
 
 
-def overhanging_struts(lattice: Graph, length: Floats, up: Floats, process: Process) -> Bools:
+def overhanging_struts(angle: Floats, length: Floats, process: Process) -> Bools:
     """(m,) the struts at a lesser inclination than a process's, without flat ones that it bridges.
 
     Args:
-        lattice: nodes and struts.
+        angle: (m,) to the build plate, degrees.
         length: (m,) mm, of each strut what is to be built.
-        up: (3,) unit vector from the build plate up.
         process: its limits.
     """
-    bridged = _bridged(inclinations(lattice, up), length, process)
-    return is_flat(lattice, up, process.inclination) & ~bridged
+    return is_below(angle, process.inclination) & ~_bridged(angle, length, process)
 
 
 def _bridged(angle: Floats, length: Floats, process: Process) -> Bools:

@@ -210,9 +210,8 @@ def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
 
     def bad(mesh, tolerance, among=None):
         every, none = np.arange(len(mesh.triangles)), np.zeros(0, np.int64)
-        through = mesh.vertices[:1] + np.array(
-            [70.0, 55.0, 40.0]
-        )  # a corner through the opposite faces
+        # A corner through the opposite faces.
+        through = mesh.vertices[:1] + np.array([70.0, 55.0, 40.0])
         return Repair(every, mesh.triangles, every, every >= 0, every[:1], through, none)
 
     monkeypatch.setattr("volfrep.trim.finish.repair_slivers", bad)

@@ -7,10 +7,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
-import numpy as np
-
 from ...design.spec import LatticeSpec
-from ...grid.inclination import is_flat, unit_direction
+from ...grid.inclination import inclinations, is_below, unit_direction
 from ...reports.printability import overhanging_struts
 from ...util.errors import Cancelled, VolfrepError
 from ..infill import Infill
@@ -73,10 +71,9 @@ def flat_struts(building: Building, infill: Infill) -> tuple[int, int]:
     if building.without_flat_struts(infill.spec) is None:
         return 0, 0
     frame, process = infill.struts, building.process
-    ends, up = frame.nodes[frame.struts], unit_direction(building.build_direction)
-    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    hanging = overhanging_struts(frame, length, up, process)
-    return int(is_flat(frame, up, process.inclination).sum()), int(hanging.sum())
+    angle = inclinations(frame, unit_direction(building.build_direction))
+    hanging = overhanging_struts(angle, frame.lengths(), process)
+    return int(is_below(angle, process.inclination).sum()), int(hanging.sum())
 
 
 def without_flat_struts(
@@ -97,8 +94,8 @@ def without_flat_struts(
         It, and why flat struts stay where they do.
     """
     building = goal.building
-    steeper = None if building is None else building.without_flat_struts(spec)
     assert building is not None
+    steeper = building.without_flat_struts(spec)
     assert steeper is not None
     try:
         made = designed(steeper)

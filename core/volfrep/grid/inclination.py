@@ -32,8 +32,17 @@ def unit_direction(direction: tuple[float, float, float]) -> Floats:
 def inclinations(lattice: Graph, up: Floats) -> Floats:
     """(m,) the angle of every strut to the build plate, degrees from 0 to 90."""
     ends = lattice.nodes[lattice.struts]
-    along = ends[:, 1] - ends[:, 0]
-    rise = np.abs((along * up).sum(axis=1)) / np.maximum(np.linalg.norm(along, axis=1), 1e-300)
+    return inclinations_along(ends[:, 1] - ends[:, 0], up)
+
+
+def inclinations_along(spans: Floats, up: Floats) -> Floats:
+    """(m,) the angle to the build plate of straight lines, degrees from 0 to 90.
+
+    Args:
+        spans: (m, 3) from their starts to their ends, of any length.
+        up: (3,) a unit vector.
+    """
+    rise = np.abs((spans * up).sum(axis=1)) / np.maximum(np.linalg.norm(spans, axis=1), 1e-300)
     result: Floats = np.degrees(np.arcsin(np.minimum(rise, 1.0)))
     return result
 

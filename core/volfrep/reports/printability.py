@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..design.spec import LatticeSpec
-from ..grid.inclination import inclinations, is_below, unit_direction
+from ..grid.inclination import inclinations, inclinations_along, is_below, unit_direction
 from ..grid.strut_graph import Wireframe
 from ..mesh.quality import inspect
 from ..mesh.triangle_mesh import TriangleMesh
@@ -280,12 +280,10 @@ def print_forecast(
     """
     up, (start, end, radii), (solid, part) = unit_direction(build_direction), struts, volumes
     span = end - start
-    length = np.linalg.norm(span, axis=1)
-    rise = np.abs((span * up).sum(axis=1)) / np.maximum(length, 1e-300)
-    angle = np.degrees(np.arcsin(np.minimum(rise, 1.0)))
+    length, angle = np.linalg.norm(span, axis=1), inclinations_along(span, up)
     hangs = np.zeros(len(length), bool)
     if process is not None:
-        hangs = (angle < process.inclination - 1e-9) & ~_bridged(angle, length, process)
+        hangs = overhanging_struts(angle, length, process)
     overhanging = float(length[hangs].sum()) / max(float(length.sum()), 1e-300)
     saved = max(abs(solid) - part, 0.0)
     cell = None if spec.varies else spec.kind.cube

@@ -414,6 +414,8 @@ def _twice(cluster: Ints, owner: Ints) -> Ints:
 def _open(mesh: TriangleMesh, some: Ints, seam: Ints, rim: Ints) -> Ints:
     """The triangles with an edge that does not run once each way and is not at the rim.
 
+    And those that lie on each other: back to back they are closed, edge for edge.
+
     Args:
         mesh: of all of them.
         some: triangles with an edge between vertices at seams, among others.
@@ -436,5 +438,15 @@ def _open(mesh: TriangleMesh, some: Ints, seam: Ints, rim: Ints) -> Ints:
     )
     behind = np.searchsorted(key, back, "right") - np.searchsorted(key, back)
     wrong = (ahead != 1) | (behind > 1) | ((behind == 0) & ~(at_rim[start] & at_rim[end]))
-    result: Ints = owner[wrong]
+    return np.concatenate([owner[wrong], some[_alike(mesh.triangles[some], at_seam)]])
+
+
+def _alike(triangles: NDArray[np.int32], at_seam: Bools) -> Ints:
+    """Which triangles have the same three corners, all of them at seams, in any order."""
+    rows = np.flatnonzero(corners_among(at_seam, triangles) == 3)
+    low, middle, high = np.sort(triangles[rows], axis=1).astype(np.int64).T
+    size = np.int64(len(at_seam))
+    edge = np.unique(low * size + middle, return_inverse=True)[1].ravel()
+    _, each, often = np.unique(edge * size + high, return_inverse=True, return_counts=True)
+    result: Ints = rows[often[each.ravel()] > 1]
     return result

@@ -26,9 +26,9 @@ from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.octants.octant_spec import OctantSpec
 from volfrep.spatial.resolve_crossings import folds_of
 from volfrep.trim import boolean_trim, group_cut, octant_groups
-from volfrep.trim.boolean_trim import trim
+from volfrep.trim.boolean_trim import join, trim
 from volfrep.trim.culling import cull, octant_roles
-from volfrep.trim.group_cut import rim_of
+from volfrep.trim.group_cut import Piece, rim_of
 from volfrep.trim.placed_lattice import in_place
 from volfrep.trim.seams import NotCertain
 from volfrep.trim.trimmed_surface import TrimmedSurface
@@ -331,6 +331,33 @@ def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
     found = quality.measure(mesh_of(trimmed(tilted_box())))
     assert found.watertight
     assert len(counts) == 2
+
+
+@pytest.mark.parametrize("turned", [True, False], ids=["back to back", "twice"])
+def test_triangles_that_lie_on_each_other_in_two_pieces_are_found_out(turned):
+    ball = trimesh.creation.icosphere(2)
+    upper = ball.triangles_center[:, 2] > 0.0
+    flat = np.array([[3.0, 0.0, 0.0], [4.0, 0.0, 0.0], [3.0, 1.0, 0.0]])
+
+    def joined(*pieces):
+        meshes = [trimesh.Trimesh(*each).process() for each in pieces]
+        meshes = [TriangleMesh(each.vertices, each.faces.astype(np.int32)) for each in meshes]
+        return join(
+            [Piece(mesh, np.ones(len(mesh.triangles), bool), rim_of(mesh)) for mesh in meshes],
+            np.zeros((0, 3)), 1e-9,
+        )  # fmt: skip
+
+    def half(chosen, order=None):
+        faces, vertices = ball.faces[chosen], ball.vertices
+        if order is not None:
+            faces = np.concatenate([faces, [np.add(order, len(vertices))]])
+            vertices = np.concatenate([vertices, flat])
+        return vertices, faces
+
+    assert not len(joined(half(upper), half(~upper)).loose)
+    other = (0, 2, 1) if turned else (0, 1, 2)
+    found = joined(half(upper, (0, 1, 2)), half(~upper, other))
+    assert found.loose.tolist() == [0, 1]
 
 
 @pytest.mark.costly

@@ -22,6 +22,8 @@ from ..util.types import Floats
 
 #: Octants are placed in groups of about so many vertices or triangles: a cancel is soon seen.
 CHUNK_VERTICES = 200_000
+#: The entity of vertices inside an octant.
+INSIDE = 13
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +121,12 @@ def coordinates(layout: Layout, monitor: Monitor) -> Floats:
 
 
 def coordinates_of(
-    layout: Layout, wanted: NDArray[np.int32], where: NDArray[np.bool_], monitor: Monitor
+    layout: Layout,
+    wanted: NDArray[np.int32],
+    where: NDArray[np.bool_],
+    monitor: Monitor,
+    *,
+    shared: bool = False,
 ) -> Floats:
     """(k, 3) coordinates of some of the numbered vertices, mm.
 
@@ -128,9 +135,10 @@ def coordinates_of(
         wanted: (k,) numbers, ascending.
         where: octants that have all of them.
         monitor: for cancel.
+        shared: whether all of them lie on faces of octants.
     """
     vertices = np.empty((len(wanted), 3))
-    for number, points in placed_octants(layout, where, monitor):
+    for number, points in placed_octants(layout, where, monitor, shared=shared):
         row = np.minimum(np.searchsorted(wanted, number), len(wanted) - 1)
         found = wanted[row] == number
         vertices[row[found]] = points[found]
@@ -138,14 +146,23 @@ def coordinates_of(
 
 
 def placed_octants(
-    layout: Layout, where: NDArray[np.bool_] | None, monitor: Monitor
+    layout: Layout, where: NDArray[np.bool_] | None, monitor: Monitor, *, shared: bool = False
 ) -> Iterator[tuple[NDArray[np.int32], Floats]]:
-    """Octants some at a time: (k, n) numbers of their vertices and (k, n, 3) their coordinates."""
+    """Octants some at a time: (k, n) numbers of their vertices and (k, n, 3) their coordinates.
+
+    With `shared` those of vertices on their faces only.
+    """
     grid = layout.grid
     for key, place in zip(grid.keys, layout.places, strict=True):
         octant = layout.octants[key]
         if where is not None:
             place = place[where[tuple(place.T)]]
+        if shared:
+            at = octant.entity != INSIDE
+            octant = replace(
+                octant, vertices=octant.vertices[at], triangles=octant.triangles[:0],
+                entity=octant.entity[at], rank=octant.rank[at],
+            )  # fmt: skip
         if not len(octant.vertices):
             continue
         steps = in_steps(grid, octant)

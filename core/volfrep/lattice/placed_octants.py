@@ -43,17 +43,25 @@ class Placed:
     points: Floats | None
     motion: Motion
 
-    def coordinates(self, wanted: NDArray[np.int32], where: Bools, monitor: Monitor) -> Floats:
+    def coordinates(
+        self,
+        wanted: NDArray[np.int32],
+        where: Bools,
+        monitor: Monitor,
+        *,
+        shared: bool = False,
+    ) -> Floats:
         """(k, 3) where some vertices are, mm.
 
         Args:
             wanted: (k,) their numbers, ascending.
             where: octants that have all of them.
             monitor: for cancel.
+            shared: whether all of them lie on faces of octants.
         """
         if self.points is not None:
             return self.points[wanted]
-        return self.motion(coordinates_of(self.layout, wanted, where, monitor))
+        return self.motion(coordinates_of(self.layout, wanted, where, monitor, shared=shared))
 
     def mesh(
         self, triangles: NDArray[np.int32], where: Bools, monitor: Monitor

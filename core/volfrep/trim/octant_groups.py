@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..lattice.assembly import Layout
 from ..mesh import remesh
@@ -85,6 +86,11 @@ class Groups:
         return groups, number
 
     @cached_property
+    def _of_group(self) -> tuple[Ints, Ints]:
+        """The octants, by their group."""
+        return _sort_groups(self.octant, self.count)
+
+    @cached_property
     def _by_triangle(self) -> tuple[Ints, Ints]:
         """What touches, by the triangle's group."""
         return _sort_groups(self.triangle[self.touch[:, 1]], self.count)
@@ -136,7 +142,7 @@ class Groups:
             placed, box = self.lattice.cutting(self.places[rows])
             low = np.array([part.start or 0 for part in box])
             mine = np.zeros(placed.layout.grid.kind.shape, bool)
-            mine[tuple((self.places[self.octant == group] - low).T)] = True
+            mine[tuple((self.places[_of(self._of_group, group)] - low).T)] = True
             every = placed.layout.grid.kind >= 0
             follow = going[box] & ~every
             made = Group(
@@ -160,10 +166,9 @@ class Groups:
 
         Each with its row, in any order.
         """
-        corners = self.boundary.triangles.T
-        low, high = triangle_boxes(self.boundary.vertices.T, corners)
+        low, high = self._triangle_boxes
         # Halves of what is left of the wall, so that each look is at a small part.
-        waiting = [(np.arange(corners.shape[1]), np.arange(len(boxes)))]
+        waiting = [(np.arange(low.shape[1]), np.arange(len(boxes)))]
         while waiting:
             some, rows = waiting.pop()
             least, most = boxes[rows, 0].min(axis=0), boxes[rows, 1].max(axis=0)
@@ -178,37 +183,52 @@ class Groups:
             monitor.tick()
             yield int(rows[0]), near, self.triangle[some] == which[rows[0]]
 
+    @cached_property
+    def _row(self) -> NDArray[np.int32]:
+        """(nx, ny, nz) the row of each octant, -1 where none is."""
+        result = np.full(self.lattice.kept.border.shape, -1, np.int32)
+        result[tuple(self.places.T)] = np.arange(len(self.places))
+        return result
+
+    @cached_property
+    def _triangle_boxes(self) -> tuple[Floats, Floats]:
+        """(3, m) corners of the boxes about the wall's triangles, mm."""
+        return triangle_boxes(self.boundary.vertices.T, self.boundary.triangles.T)
+
+    @cached_property
+    def _beyond(self) -> float:
+        """How far the wall is taken beyond what a group has, mm."""
+        return BEYOND * _edge(self.low, self.high)
+
     def _octants(self, group: int) -> Ints:
         """The rows of a group's octants and of those that touch its part of the wall.
 
         As many more as it takes for no two of them to touch along an edge or a corner only.
         """
-        chosen = self.octant == group
-        chosen[self.touch[_of(self._by_triangle, group), 0]] = True
+        if self.count == 1:
+            return np.arange(len(self.places))
+        own = _of(self._of_group, group)
+        places = self.places[np.concatenate([own, self.touch[_of(self._by_triangle, group), 0]])]
         border, periodic = self.lattice.kept.border, self.lattice.layout.grid.periodic
-        if self.count > 1:
-            low, high = self.places[chosen].min(axis=0), self.places[chosen].max(axis=0) + 1
-            low, high = np.maximum(low - 1, 0), np.minimum(high + 1, border.shape)
-            low = np.where(periodic, 0, low)
-            high = np.where(periodic, border.shape, high)
-            box = tuple(slice(a, b) for a, b in zip(low, high, strict=True))
-            mask = np.zeros(border[box].shape, bool)
-            mask[tuple((self.places[chosen] - low).T)] = True
-            mask = without_pinches(mask, border[box], periodic)
-            inside = ((self.places >= low) & (self.places < high)).all(axis=1)
-            rows = np.flatnonzero(inside)
-            chosen[rows] = mask[tuple((self.places[rows] - low).T)]
-        return np.flatnonzero(chosen)
+        low, high = places.min(axis=0), places.max(axis=0) + 1
+        low, high = np.maximum(low - 1, 0), np.minimum(high + 1, border.shape)
+        low = np.where(periodic, 0, low)
+        high = np.where(periodic, border.shape, high)
+        box = tuple(slice(a, b) for a, b in zip(low, high, strict=True))
+        mask = np.zeros(border[box].shape, bool)
+        mask[tuple((places - low).T)] = True
+        mask = without_pinches(mask, border[box], periodic)
+        rows: Ints = self._row[box][mask].astype(np.int64)
+        return rows
 
     def _box(self, group: int, octants: Ints, triangles: Ints) -> Floats:
         """(2, 3) about a group's octants, its part of the wall and what cuts its own octants."""
-        cutting = self.touch[_of(self._by_octant, group), 1]
-        every = self.boundary.triangles[np.concatenate([triangles, cutting])]
-        corners = self.boundary.vertices[every].reshape(-1, 3)
-        beyond = BEYOND * _edge(self.low, self.high)
-        low = np.concatenate([self.low[octants], corners]).min(axis=0)
-        high = np.concatenate([self.high[octants], corners]).max(axis=0)
-        return np.array([low - beyond, high + beyond])
+        every = np.concatenate([triangles, self.touch[_of(self._by_octant, group), 1]])
+        low, high = (
+            np.concatenate([mine[octants], wall[:, every].T])
+            for mine, wall in zip((self.low, self.high), self._triangle_boxes, strict=True)
+        )
+        return np.array([low.min(axis=0) - self._beyond, high.max(axis=0) + self._beyond])
 
 
 def _sort_groups(group: Ints, count: int) -> tuple[Ints, Ints]:
@@ -303,46 +323,56 @@ def _split(mesh: TriangleMesh, longest: float, low: Floats, high: Floats) -> Tri
         high: (k, 3) highest ones, mm.
     """
     points, triangles = mesh.vertices, mesh.triangles.astype(np.int64)
+    some, others = np.arange(len(triangles)), np.zeros(0, np.int64)
     while True:
         # Axis by axis, which numpy takes in faster than rows of three.
-        corners = [[points[triangles[:, k], axis] for k in range(3)] for axis in range(3)]
+        corners = [[points[triangles[some, k], axis] for k in range(3)] for axis in range(3)]
         squares = [[(a - b) ** 2 for a, b in zip(c, c[1:] + c[:1], strict=True)] for c in corners]
         sides = np.stack([x + y + z for x, y, z in zip(*squares, strict=True)], axis=1)
-        rows = long = np.flatnonzero((sides > longest**2).any(axis=1))
+        is_long = (sides > longest**2).any(axis=1)
+        some, sides = some[is_long], sides[is_long]
         spans = [
-            (np.minimum(np.minimum(a, b), c)[rows], np.maximum(np.maximum(a, b), c)[rows])
+            (np.minimum(np.minimum(a, b), c)[is_long], np.maximum(np.maximum(a, b), c)[is_long])
             for a, b, c in corners
         ]
-        met = np.zeros(len(rows), np.int64)
+        met = np.zeros(len(some), np.int64)
         for least, most in zip(low, high, strict=True):
-            inside = np.ones(len(rows), bool)
+            inside = np.ones(len(some), bool)
             for (first, last), begin, end in zip(spans, least, most, strict=True):
                 inside &= (first <= end) & (last >= begin)
             met += inside
-        rows = rows[met > 1]
+        rows = some[met > 1]
         if not len(rows):
             return TriangleMesh(points, triangles.astype(np.int32))
-        at = sides[rows].argmax(axis=1)
+        at = sides[met > 1].argmax(axis=1)
         ends = np.stack([triangles[rows, at], triangles[rows, (at + 1) % 3]], axis=1)
-        count = len(points)
+        count, before = len(points), len(triangles)
         wanted = partial(
             among_edges, keys=np.unique(edge_keys(ends[:, 0], ends[:, 1], count)), count=count
         )
-        # Those beyond these sides have a long one, too.
-        beside = long[corners_among(vertices_of(ends, count), triangles[long]) > 1]
-        points, triangles = remesh.split(points, triangles, wanted, beside)
+        # Those beyond these sides have a long one, too: no others change.
+        long = np.sort(np.concatenate([others, some]))
+        beside = corners_among(vertices_of(ends, count), triangles[long]) > 1
+        others, some = long[~beside], long[beside]
+        points, triangles = remesh.split(points, triangles, wanted, some)
+        some = np.concatenate([some, np.arange(before, len(triangles))])
 
 
 def _touching(low: Floats, high: Floats, boundary: TriangleMesh, near: float) -> Ints:
     """(t, 2) boxes and triangles that touch, by their boxes and by the triangles' planes."""
     corners = corners_at(boundary.vertices, boundary.triangles)
-    first, last = corners.min(axis=1) - near, corners.max(axis=1) + near
-    a, b = meeting_boxes(low, high, first, last, float((high - low).max()))
-    normal = remesh.normals(corners)
-    above = np.einsum("ij,ij->i", 0.5 * (low[a] + high[a]) - corners[b, 0], normal[b])
-    reach = np.einsum("ij,ij->i", 0.5 * (high[a] - low[a]) + near, np.abs(normal[b]))
+    first, last = triangle_boxes(boundary.vertices.T, boundary.triangles.T)
+    a, b = meeting_boxes(low, high, first.T - near, last.T + near, float((high - low).max()))
+    # Axis by axis, which numpy takes in faster than rows of three.
+    normal = np.ascontiguousarray(remesh.normals(corners).T)
+    middle, half = 0.5 * (low + high).T, 0.5 * (high - low).T + near
+    above, reach = np.zeros((2, len(a)))
+    for axis in range(3):
+        along = normal[axis].take(b)
+        above += (middle[axis].take(a) - corners[:, 0, axis].take(b)) * along
+        reach += half[axis].take(a) * np.abs(along)
     meets = np.abs(above) <= reach
-    pairs = np.unique(a[meets] * np.int64(len(corners)) + b[meets])
+    pairs = np.sort(a[meets] * np.int64(len(corners)) + b[meets])
     return np.stack(np.divmod(pairs, len(corners)), axis=1)
 
 

@@ -182,7 +182,8 @@ class InnerOctants:
         """(k, 3) where they are, mm."""
         if self.known is not None:
             return self.known.points[self.rim_in_known]
-        return self.lattice.coordinates(self.rim.astype(np.int32), self._at_rim, Monitor())
+        numbers = self.rim.astype(np.int32)
+        return self.lattice.coordinates(numbers, self._at_rim, Monitor(), shared=True)
 
     @property
     def rim_in_known(self) -> Ints:

@@ -246,7 +246,7 @@ def resolve_fold_crossings(
         moved = displaced_vertices(before, mesh)
         went = touching(moved, mesh.triangles)
         stay = folded.pairs[~went[folded.pairs].any(axis=1)]
-        now = _crossing(mesh, about(mesh, went), monitor, moved)
+        now = _crossing(mesh, about(mesh, went, monitor.backend), monitor, moved)
         pairs = np.concatenate([stay, now])
     if not len(pairs):
         return mesh, None

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.remesh import unit_normals
-from ..mesh.triangle_mesh import TriangleMesh, box_of, corners_at, triangle_boxes
+from ..mesh.triangle_mesh import TriangleMesh, box_of, compact, corners_at, triangle_boxes
+from ..util.parallel import ParallelBackend, SharedArray
 from ..util.ragged import pairs_in_steps, spread
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
@@ -26,6 +27,8 @@ ALONG_ALL = 7
 ABOUT_CELLS = 160
 #: Triangles that are looked for in the grid at once.
 BLOCK_TRIANGLES = 1 << 17
+#: And of a mesh of more than so many, that a process looks for at a time.
+CALL_TRIANGLES = 1 << 18
 #: A plane may be so many of these cells from where rounding puts it.
 PLANE_SLACK = 1e-3
 #: A triangle with less than this of the area that its sides could have has no plane.
@@ -295,18 +298,27 @@ def _edges_cross(
         yield rows, p + share[:, None] * (q - p)
 
 
-def about(mesh: TriangleMesh, among: Bools) -> Bools:
+def about(mesh: TriangleMesh, among: Bools, backend: ParallelBackend | None = None) -> Bools:
     """(m,) which triangles' boxes reach into the cells of a grid that the chosen ones go through.
 
-    Whatever meets a chosen one does so in a cell that this goes through.
+    Whatever meets a chosen one does so in a cell that this goes through. Processes of a backend
+    look at some of the triangles each, in cells of their own.
     """
     if among.all():
         return among
-    return near_corners(mesh, corners_at(mesh.vertices, mesh.triangles[among])) | among
+    return near_corners(mesh, corners_at(mesh.vertices, mesh.triangles[among]), backend) | among
 
 
-def near_corners(mesh: TriangleMesh, corners: Floats) -> Bools:
+def near_corners(
+    mesh: TriangleMesh, corners: Floats, backend: ParallelBackend | None = None
+) -> Bools:
     """As `about`, of triangles with (k, 3, 3) corners, mm, that are none of the mesh's."""
+    count = len(mesh.triangles)
+    if backend is not None and backend.uses_processes and count > CALL_TRIANGLES:
+        with backend.sharing(mesh.vertices, mesh.triangles, corners) as shared:
+            starts = range(0, count, CALL_TRIANGLES)
+            calls = ((*shared, start, CALL_TRIANGLES) for start in starts)
+            return np.concatenate(list(backend.starmap(_near_some, calls)))
     least, most = box_of(mesh.vertices)
     cells_along = min(ABOUT_CELLS, 8 + int(np.cbrt(len(mesh.triangles))))
     size = max(float((most - least).max()) / cells_along, 1e-300)
@@ -341,6 +353,17 @@ def near_corners(mesh: TriangleMesh, corners: Floats) -> Bools:
         low, high = triangle_boxes(mesh.vertices.T, mesh.triangles[rows].T)
         result[rows] = _nearer(low - least[:, None], high - least[:, None], chosen)
     return result
+
+
+def _near_some(
+    vertices: SharedArray, triangles: SharedArray, corners: SharedArray, start: int, count: int
+) -> Bools:
+    """As `near_corners`, of so many of a mesh's triangles."""
+    some = triangles.array[start : start + count]
+    part = compact(TriangleMesh(vertices.array, some))
+    (low, high), every = box_of(part.vertices), corners.array
+    here = ((every.max(axis=1) >= low) & (every.min(axis=1) <= high)).all(axis=1)
+    return near_corners(part, every[here]) if here.any() else np.zeros(len(some), bool)
 
 
 def _cells_within(
@@ -390,7 +413,7 @@ def _gone_through(corners: Floats, shape: tuple[int, ...]) -> Bools:
         corners: (k, 3, 3) of the triangles, in cells.
         shape: of the grid; what lies beyond it is left out.
     """
-    low = np.floor(corners.min(axis=1)).astype(np.int64)
+    low = np.maximum(np.floor(corners.min(axis=1)).astype(np.int64), 0)
     high = np.minimum(np.floor(corners.max(axis=1)).astype(np.int64), np.array(shape) - 1)
     e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     normal = np.cross(e, f)

@@ -11,9 +11,10 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..mesh.booleans import to_library
 from ..mesh.float32_repair import shortest_edge
@@ -32,11 +33,13 @@ from ..util.types import Bools, Floats, Ints
 from .culling import KeptOctants, without_pinches
 from .group_cut import Group, Piece, cut_group, read_runs
 from .octant_groups import Groups, group_octants
-from .placed_lattice import InnerOctants, PlacedLattice
+from .placed_lattice import InnerOctants, PlacedLattice, Proof, prove
 from .trimmed_surface import TrimmedSurface, concatenated_at, equal_rows
 
 if TYPE_CHECKING:
     import manifold3d
+
+T = TypeVar("T")
 
 #: Is told octants inside.
 Ahead = Callable[[InnerOctants], None]
@@ -88,8 +91,9 @@ def trim(
     monitor.tick(0.1)
     kept = lattice.kept
     inner = InnerOctants(lattice, kept.inside) if kept.inside.any() else None
+    proof = _ask_for_proof(inner, executor)
     groups = group_octants(lattice, domain, monitor, precision)
-    found = _join_groups(groups, inner, cavity, monitor, executor, ahead)
+    found, inner = _join_groups(groups, inner, proof, cavity, monitor, executor, ahead)
     trimmed = TrimmedSurface(found.mesh, inner, found.looks, found.at_rim, found.shells)
     if not trimmed.is_joined:
         # The Boolean has taken out vertices at the caps, as it may do between tiny triangles: let
@@ -105,14 +109,17 @@ def trim(
 def _join_groups(
     groups: Groups,
     inner: InnerOctants | None,
+    proof: Future[Proof] | None,
     cavity: bool,
     monitor: Monitor,
     executor: Executor | None,
     ahead: Ahead | None,
-) -> Joined:
-    """All groups, cut and joined; those that do not meet exactly are cut as one."""
+) -> tuple[Joined, InnerOctants | None]:
+    """All groups, cut and joined; those that do not meet exactly are cut as one.
+
+    And the octants inside, with their proof if that was asked for.
+    """
     same = SAME_VERTEX * shortest_edge(groups.boundary)
-    rim = np.zeros((0, 3)) if inner is None else inner.rim_points
     pieces: dict[int, Piece] = {}
     while True:
         missing = np.array([k for k in range(groups.count) if k not in pieces], np.int64)
@@ -125,19 +132,33 @@ def _join_groups(
             piece = pieces[0]
             if len(wrong):
                 raise piece.error
-            return Joined(piece.mesh, piece.on_boundary, wrong)
+            return Joined(piece.mesh, piece.on_boundary, wrong), inner
         if not len(wrong):
+            if inner is not None and proof is not None:
+                inner = replace(inner, proof=_awaited(proof, Watch(executor), monitor))
+            proof = None
+            rim = np.zeros((0, 3)) if inner is None else inner.rim_points
             together = [pieces[k] for k in range(groups.count)]
             if cavity:
                 together.append(groups.untouched)
             found = join(together, rim, same)
             if not len(found.loose):
-                return found
+                return found, inner
             wrong = found.loose[found.loose < groups.count]
         if len(wrong) < 2:
             wrong = np.arange(groups.count)
         groups, number = groups.merged(wrong)
         pieces = {int(number[k]): piece for k, piece in pieces.items() if k not in wrong}
+
+
+def _ask_for_proof(inner: InnerOctants | None, executor: Executor | None) -> Future[Proof] | None:
+    """The proof of octants that keep their places, which a worker finds meanwhile."""
+    if inner is None or inner.lattice.points is not None or executor is None:
+        return None
+    try:
+        return executor.submit(prove, inner)
+    except RuntimeError:  # it takes nothing more
+        return None
 
 
 def _cut(
@@ -205,16 +226,21 @@ def _cut_with(
 def _await_piece(future: Future[Piece], watch: Watch, monitor: Monitor) -> Piece | None:
     """What a worker made; None where it was lost, as for want of memory.
 
-    What is wrong with a group itself shows again where it is cut next. A cancel does not wait.
+    What is wrong with a group itself shows again where it is cut next.
     """
+    piece = _awaited(future, watch, monitor)
+    if piece is None:
+        monitor.count("groups whose worker was lost", 1)
+    return piece
+
+
+def _awaited(future: Future[T], watch: Watch, monitor: Monitor) -> T | None:
+    """What a worker made; None where it was lost. A cancel does not wait."""
     while not future.done():
         wait([future], POLL_SECONDS)
         watch()
         monitor.tick()
-    if future.cancelled() or future.exception() is not None:
-        monitor.count("groups whose worker was lost", 1)
-        return None
-    return future.result()
+    return None if future.cancelled() or future.exception() is not None else future.result()
 
 
 def cut_again(

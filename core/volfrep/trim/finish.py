@@ -70,7 +70,7 @@ def mend(surface: TrimmedSurface, precision: float, monitor: Monitor) -> MendedS
     # What lies about the new triangles is little, and is all that is looked at.
     small = repair.some(mesh, fresh)
     corners = corners_at(small.vertices, small.triangles)
-    rows = np.flatnonzero(near_corners(mesh, corners) & repair.stays(mesh))
+    rows = np.flatnonzero(near_corners(mesh, corners, monitor.backend) & repair.stays(mesh))
     every = np.concatenate([mesh.triangles[rows], repair.piece])
     part, among = repair.some(mesh, every), np.pad(repair.new, (len(rows), 0))
     if surface.octants is not None:

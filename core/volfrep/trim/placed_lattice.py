@@ -143,6 +143,21 @@ class PlacedVertices:
 
 
 @dataclass(frozen=True, eq=False)
+class Proof:
+    """What is proved of octants inside.
+
+    Attributes:
+        pieces: by their kinds.
+        rim: the vertices, by their numbers, at which octants are open; ascending.
+        points: (k, 3) where these are, mm.
+    """
+
+    pieces: CertifiedPieces
+    rim: Ints
+    points: Floats
+
+
+@dataclass(frozen=True, eq=False)
 class InnerOctants:
     """Octants that belong to a surface without being in its mesh.
 
@@ -150,11 +165,13 @@ class InnerOctants:
         lattice: all the octants.
         where: (nx, ny, nz) bool, these.
         known: vertices, those at their rim among them; None: none is placed yet.
+        proof: of them; None: it is found when it is asked for.
     """
 
     lattice: PlacedLattice
     where: Bools
     known: PlacedVertices | None = None
+    proof: Proof | None = None
 
     @cached_property
     def layout(self) -> Layout:
@@ -164,6 +181,8 @@ class InnerOctants:
     @cached_property
     def pieces(self) -> CertifiedPieces:
         """What is proved of them by their kinds."""
+        if self.proof is not None:
+            return self.proof.pieces
         return certify_pieces(self.layout, box(self.layout).mean(axis=0), self.lattice.deformed)
 
     @property
@@ -175,13 +194,15 @@ class InnerOctants:
     @cached_property
     def rim(self) -> Ints:
         """The vertices, by their numbers, at which octants are open; ascending."""
-        return np.unique(self.pieces.rim)
+        return np.unique(self.pieces.rim) if self.proof is None else self.proof.rim
 
     @cached_property
     def rim_points(self) -> Floats:
         """(k, 3) where they are, mm."""
         if self.known is not None:
             return self.known.points[self.rim_in_known]
+        if self.proof is not None:
+            return self.proof.points
         numbers = self.rim.astype(np.int32)
         return self.lattice.coordinates(numbers, self._at_rim, Monitor(), shared=True)
 
@@ -321,6 +342,11 @@ class InnerOctants:
             meets = np.abs(above) <= (0.5 - REACH) * np.abs(across).sum(axis=1)
             result[tuple(index[meets].T)] = True
         return result
+
+
+def prove(inner: InnerOctants) -> Proof:
+    """The proof of some octants, which any process may find."""
+    return Proof(inner.pieces, inner.rim, inner.rim_points)
 
 
 def in_place(kept: KeptOctants, octants: dict[OctantKey, Octant], motion: Motion) -> PlacedLattice:

@@ -4,8 +4,10 @@ import pytest
 
 import samples
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.spatial import self_intersection
 from volfrep.spatial.piercing import piercing_pairs
 from volfrep.spatial.self_intersection import about, close_pairs, crossing_triangles
+from volfrep.util.parallel import ParallelBackend
 
 
 def everywhere(mesh):
@@ -78,6 +80,31 @@ def test_what_lies_about_a_few_triangles_holds_all_that_cross_them(which):
     pairs = piercing_pairs(mesh)
     crossing = chosen[pairs].any(axis=1)
     assert crossing.any() or which == slice(0, 5)
+    assert near[pairs[crossing]].all()
+    assert not near.all()
+
+
+def test_processes_that_look_at_a_few_triangles_each_find_all_that_cross_the_chosen(monkeypatch):
+    monkeypatch.setattr(self_intersection, "CALL_TRIANGLES", 150)
+    corners, _ = scattered(400)
+    mesh = TriangleMesh(corners.reshape(-1, 3), np.arange(1200, dtype=np.int32).reshape(-1, 3))
+    chosen = np.zeros(len(corners), bool)
+    chosen[np.ptp(corners, axis=1).max(axis=1).argsort()[-3:]] = True
+    calls = []
+
+    class Processes(ParallelBackend):
+        uses_processes = True
+
+        def starmap(self, function, given):
+            calls.extend(given)
+            return (function(*each) for each in calls)
+
+    near = about(mesh, chosen, Processes())
+    assert len(calls) == 3
+    assert near[chosen].all()
+    pairs = piercing_pairs(mesh)
+    crossing = chosen[pairs].any(axis=1)
+    assert crossing.any()
     assert near[pairs[crossing]].all()
     assert not near.all()
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The lattice cut at the wall, and what is removed afterwards."""
 
+import pickle
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from threading import Event, get_ident
@@ -29,7 +30,7 @@ from volfrep.trim import boolean_trim, group_cut, octant_groups
 from volfrep.trim.boolean_trim import join, trim
 from volfrep.trim.culling import cull, octant_roles
 from volfrep.trim.group_cut import Piece, rim_of
-from volfrep.trim.placed_lattice import in_place
+from volfrep.trim.placed_lattice import in_place, prove
 from volfrep.trim.seams import NotCertain
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import Cancelled
@@ -311,6 +312,16 @@ def test_a_worker_that_is_gone_costs_time_and_nothing_else(small_groups):
         mesh = mesh_of(trimmed(tilted_box(), executor=executor))
     np.testing.assert_array_equal(mesh.vertices, mesh_of(trimmed(tilted_box())).vertices)
     assert Gone.taken > 2
+
+
+def test_the_proof_of_octants_inside_is_the_same_wherever_it_is_found():
+    octants = trimmed(samples.sphere(22.0)).surface.octants
+    found = pickle.loads(pickle.dumps(prove(pickle.loads(pickle.dumps(octants)))))
+    told = replace(octants, proof=found)
+    np.testing.assert_array_equal(told.rim, octants.rim)
+    np.testing.assert_array_equal(told.rim_points, octants.rim_points)
+    np.testing.assert_array_equal(told.pieces.rim, octants.pieces.rim)
+    assert told.pieces.triangles == octants.pieces.triangles
 
 
 @pytest.mark.costly

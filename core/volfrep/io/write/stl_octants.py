@@ -26,7 +26,16 @@ from ...lattice.assembly import Layout, in_steps, numbers, placed
 from ...octants.octant import Octant, OctantGrid
 from ...util.progress import Monitor
 from ...util.types import Bools, Floats, Ints
-from .stl import BLOCK_FACETS, FACET, Block, Facets, blocks_for, facets_at, write_facets
+from .stl import (
+    BLOCK_FACETS,
+    CALL_FACETS,
+    FACET,
+    Block,
+    Facets,
+    blocks_for,
+    facets_at,
+    write_facets,
+)
 
 if TYPE_CHECKING:
     from ...trim.placed_lattice import InnerOctants
@@ -185,7 +194,7 @@ def _copies(layout: Layout, motion: Motion) -> Iterator[Copies]:
             order = octant.triangles if frame.prod() > 0 else octant.triangles[:, ::-1]
             directions = motion.turned(frame * normals).astype(np.float32)
             pattern = _Pattern(frame * steps, motion, order.ravel(), directions)
-            size = max(1, BLOCK_FACETS // len(order))
+            size = max(1, CALL_FACETS // len(order))
             for begin in range(0, len(at), size):
                 part = at[begin : begin + size]
                 some = partial(_facets, where, layout.frames(part)[0], pattern)
@@ -233,13 +242,15 @@ class _Pattern:
 
 
 def _facets(grid: OctantGrid, corner: NDArray[np.int64], pattern: _Pattern) -> Facets:
-    copies, facets = len(corner), len(pattern.normals)
-    places = placed(grid, corner[:, None, :], pattern.steps)
-    vertices = pattern.motion(places).astype(np.float32)
-    taken = np.take(vertices, pattern.corners, axis=1, mode="clip").reshape(copies, facets, 9)
-    records = np.zeros((copies, facets), _RECORD)
+    facets = len(pattern.normals)
+    records = np.zeros((len(corner), facets), _RECORD)
     records["normal"] = pattern.normals.view(_RECORD["normal"])[:, 0]
-    records["corners"] = taken.view(_RECORD["corners"])[:, :, 0]
+    size = max(1, BLOCK_FACETS // facets)
+    for begin in range(0, len(corner), size):
+        places = placed(grid, corner[begin : begin + size, None, :], pattern.steps)
+        vertices = pattern.motion(places).astype(np.float32)
+        taken = np.take(vertices, pattern.corners, axis=1, mode="clip").reshape(-1, facets, 9)
+        records["corners"][begin : begin + size] = taken.view(_RECORD["corners"])[:, :, 0]
     return records.view(FACET).ravel()
 
 

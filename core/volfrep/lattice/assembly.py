@@ -229,10 +229,11 @@ def facets(
         cap: None for the lattice's surface; or (axis, high) for the flat caps on that face, in
             the octants' own frames.
     """
-    patterns = {key: _pattern(layout.octants[key], cap) for key in layout.grid.keys}
     pairs = list(zip(layout.grid.keys, layout.places, strict=True))
     if where is not None:
         pairs = [(key, place[where[tuple(place.T)]]) for key, place in pairs]
+    pairs = [(key, place) for key, place in pairs if len(place)]
+    patterns = {key: _pattern(layout.octants[key], cap) for key, _ in pairs}
     total = sum(len(place) * len(patterns[key]) for key, place in pairs)
     if cap is None:
         monitor.count("triangles laid", total)

@@ -251,15 +251,19 @@ def meeting_boxes(
     other, bins, theirs = _boxes_in_bins(least, most, origin, size)
     begin = np.searchsorted(its_bin, bins)
     row, place = spread(np.searchsorted(its_bin, bins, "right") - begin)
-    place += begin[row]
+    place += begin.take(row, mode="clip")
     # Boxes overlap in many bins: in the first of these one of the two begins.
-    here = (ours[place] | theirs[row]) == ALONG_ALL
-    a, b = box[place[here]], other[row[here]]
+    begins = ours.take(place, mode="clip") | theirs.take(row, mode="clip")
+    here = np.flatnonzero(begins == ALONG_ALL)
+    a = box.take(place.take(here, mode="clip"), mode="clip")
+    b = other.take(row.take(here, mode="clip"), mode="clip")
     for axis in range(3):
         ends = (np.ascontiguousarray(each[:, axis]) for each in (low, high, least, most))
         lowest, highest, its_least, its_most = ends
-        meets = (lowest[a] <= its_most[b]) & (its_least[b] <= highest[a])
-        a, b = a[meets], b[meets]
+        meets = lowest.take(a, mode="clip") <= its_most.take(b, mode="clip")
+        meets &= its_least.take(b, mode="clip") <= highest.take(a, mode="clip")
+        kept = np.flatnonzero(meets)
+        a, b = a.take(kept, mode="clip"), b.take(kept, mode="clip")
     return a, b
 
 

@@ -10,8 +10,10 @@ that went in.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import cache
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -115,11 +117,14 @@ def cut_group(group: Group, monitor: Monitor | None = None) -> Piece:
         monitor: for cancel; None where there is nobody to ask.
     """
     asked, monitor = monitor or Monitor(), Monitor()
-    surfaces, caps = _surfaces(group, monitor)
+    surfaces = _surfaces(group, monitor)
     both = group.own | group.adjacent
 
-    def capped() -> TriangleMesh:
-        return group.placed.mesh(np.concatenate([*surfaces, caps]), both, monitor)[0]
+    @cache
+    def capped() -> tuple[TriangleMesh, int]:
+        caps = _caps(group, monitor)
+        every = np.concatenate([*surfaces, caps])
+        return group.placed.mesh(every, both, monitor)[0], len(caps)
 
     try:
         piece = _cut_along_seam(group, surfaces, capped, asked, monitor)
@@ -127,7 +132,7 @@ def cut_group(group: Group, monitor: Monitor | None = None) -> Piece:
         if not group.closed:
             none = np.zeros(0, np.int64)
             return Piece(empty_mesh(), none > 0, none, needs_solid=True)
-        piece = _cut_by_library(group, surfaces, len(caps), capped(), asked, monitor)
+        piece = _cut_by_library(group, surfaces, *capped(), asked, monitor)
     if piece.defect:
         return piece
     piece = _tidy(piece, group.precision, asked)
@@ -192,7 +197,7 @@ def _tidy(piece: Piece, precision: float, monitor: Monitor) -> Piece:
 def _cut_along_seam(
     group: Group,
     surfaces: list[NDArray[np.int32]],
-    capped: Callable[[], TriangleMesh],
+    capped: Callable[[], tuple[TriangleMesh, int]],
     asked: Monitor,
     monitor: Monitor,
 ) -> Piece:
@@ -209,7 +214,7 @@ def _cut_along_seam(
     wanted = own, group.own_boundary
 
     def within(points: Floats) -> Bools:
-        return inside_points(capped(), points, monitor)
+        return inside_points(capped()[0], points, monitor)
 
     parts = asked.call(
         lambda: cut_mutually(
@@ -237,8 +242,8 @@ def _cut_along_seam(
 def _cut_by_library(
     group: Group,
     surfaces: list[NDArray[np.int32]],
-    caps: int,
     capped: TriangleMesh,
+    caps: int,
     asked: Monitor,
     monitor: Monitor,
 ) -> Piece:
@@ -258,7 +263,7 @@ def _cut_by_library(
         if solid.status() != library.Error.NoError:
             defect = f"{what} {solid.status().name}"
             return Piece(empty_mesh(), np.zeros(0, bool), np.zeros(0, np.int64), {}, defect)
-    del capped, boundary_mesh
+    del boundary_mesh
     cavity = group.cavity
     result = asked.call(lambda: (boundary - cutter if cavity else boundary ^ cutter).to_mesh64())
     mesh, origin = read_runs(result)
@@ -305,27 +310,36 @@ def cut_mesh(
     return mesh.reversed() if cavity else mesh, origin == ids
 
 
-def _surfaces(group: Group, monitor: Monitor) -> tuple[list[NDArray[np.int32]], NDArray[np.int32]]:
-    """The surface of a group's own octants, of those beside them, and the caps in between.
+def _surfaces(group: Group, monitor: Monitor) -> list[NDArray[np.int32]]:
+    """The surface of a group's own octants, and of those beside them.
 
-    Caps towards octants that follow are taken off again. Those towards nothing lie beyond the
-    wall; what a wall that grazes them leaves belongs to the surface.
+    Caps towards nothing lie beyond the wall; what a wall that grazes them leaves belongs to it.
     """
     layout, both = group.placed.layout, group.own | group.adjacent
-    caps: list[NDArray[np.int32]] = []
-    ends: tuple[list[NDArray[np.int32]], list[NDArray[np.int32]]] = ([], [])
-    for axis in range(3):
-        for high in (False, True):
-            every = neighbour_missing(layout.grid, both, axis, high)
-            last = neighbour_missing(layout.grid, both | group.follow, axis, high)
-            caps.append(facets(layout, monitor, every & ~last, (axis, high)))
-            for part, where in zip(ends, (group.own, group.adjacent), strict=True):
-                part.append(facets(layout, monitor, every & last & where, (axis, high)))
-    surfaces = [
-        np.concatenate([group.placed.facets(where, monitor), *part])
-        for part, where in zip(ends, (group.own, group.adjacent), strict=True)
-    ]
-    return surfaces, np.concatenate(caps)
+    found, faces = [], list(_missing(group, both))
+    for where in (group.own, group.adjacent):
+        ends = [facets(layout, monitor, last & where, face) for face, _, last in faces]
+        found.append(np.concatenate([group.placed.facets(where, monitor), *ends]))
+    return found
+
+
+def _caps(group: Group, monitor: Monitor) -> NDArray[np.int32]:
+    """What closes a group's octants towards those that follow; it is taken off again."""
+    layout, both = group.placed.layout, group.own | group.adjacent
+    return np.concatenate(
+        [
+            facets(layout, monitor, every & ~last, face)
+            for face, every, last in _missing(group, both)
+        ]
+    )
+
+
+def _missing(group: Group, both: Bools) -> Iterator[tuple[tuple[int, bool], Bools, Bools]]:
+    """Faces of octants, those beyond which there are no others of the group, and no others."""
+    grid = group.placed.layout.grid
+    for axis, high in product(range(3), (False, True)):
+        every = neighbour_missing(grid, both, axis, high)
+        yield (axis, high), every, neighbour_missing(grid, both | group.follow, axis, high)
 
 
 def _solid(

@@ -11,9 +11,12 @@ is decided at all.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..mesh.remesh import unit_normals
 from ..mesh.triangle_mesh import TriangleMesh, corners_at, triangle_boxes
@@ -29,6 +32,8 @@ PAIRS_PER_STEP = 4_000
 MOST_BINS = 64
 #: Determinants below this part of what their factors could give have no certain sign.
 UNSURE = 2e-15
+#: What is computed of lengths by a few steps is right to this part of them.
+ROUNDING = 1e-14
 
 
 class NotCertain(Exception):
@@ -89,20 +94,28 @@ def seam_of(first: TriangleMesh, second: TriangleMesh) -> Seam:
         NotCertain: they touch within rounding.
     """
     one, two = _near_pairs(first, second)
-    rises = _heights(first, second, one, two)
-    keep = _straddle(rises)
-    one, two, rises = one[keep], two[keep], rises[keep]
-    back = _heights(second, first, two, one)
-    keep = _straddle(back)
-    one, two, rises, back = one[keep], two[keep], rises[keep], back[keep]
-    ahead, theirs = _crossings(first, second, one, two, rises)
-    behind, ours = _crossings(second, first, two, one, back)
+    planes = _Planes.of(first), _Planes.of(second)
+    rises, doubt = _heights(first, planes[1], one, two)
+    keep = np.flatnonzero(_straddle(rises))
+    one, two, rises, doubt = one[keep], two[keep], _some(rises, keep), doubt[keep]
+    back, more = _heights(second, planes[0], two, one)
+    keep = np.flatnonzero(_straddle(back))
+    one, two, rises, back = one[keep], two[keep], _some(rises, keep), _some(back, keep)
+    # Most of these go through the planes of each other beside each other.
+    axis = _main_axis(planes[0], planes[1], one, two)
+    ours, theirs = _Sides.of(first, one, rises), _Sides.of(second, two, back)
+    low, high = ours.reach(first, axis, doubt[keep])
+    least, most = theirs.reach(second, axis, more[keep])
+    keep = np.flatnonzero((low <= most) & (least <= high))
+    one, two = one[keep], two[keep]
+    ahead, where = _crossings(first, second, ours.some(keep), two)
+    behind, elsewhere = _crossings(second, first, theirs.some(keep), one)
     # Where an edge of the first facet leaves the back of the second one, the seam begins; where an
     # edge of the second one goes from the front of the first one to its back, too.
     shift = len(ahead.edge)
-    pair = np.concatenate([theirs[0], ours[0]])
-    point = np.concatenate([theirs[1], ours[1] + shift])
-    begins = np.concatenate([theirs[2], ~ours[2]])
+    pair = np.concatenate([where[0], elsewhere[0]])
+    point = np.concatenate([where[1], elsewhere[1] + shift])
+    begins = np.concatenate([where[2], ~elsewhere[2]])
     start, end = np.full(len(one), -1, np.int64), np.full(len(one), -1, np.int64)
     start[pair[begins]], end[pair[~begins]] = point[begins], point[~begins]
     some = np.flatnonzero((start >= 0) | (end >= 0))
@@ -187,53 +200,140 @@ def _touching(
     return np.divmod(pairs, len(least))
 
 
-def _heights(first: TriangleMesh, second: TriangleMesh, one: Ints, two: Ints) -> Floats:
-    """(k, 3) of the corners of facets above others' planes, times twice these' areas, mm3."""
-    # Of every facet once, and axis by axis, which numpy takes in faster than rows of three.
-    columns = np.ascontiguousarray(second.vertices.T)
-    a, b, c = (second.triangles[:, k] for k in range(3))
-    origin = [column[a] for column in columns]
-    e, f = ([column[q] - x for column, x in zip(columns, origin, strict=True)] for q in (b, c))
-    normal = cross_columns(e, f)
-    size = np.sqrt(dot_columns(e, e) * dot_columns(f, f))[two]
-    origin, normal = [x[two] for x in origin], [x[two] for x in normal]
-    columns = np.ascontiguousarray(first.vertices.T)
-    result = np.empty((len(one), 3))
+@dataclass(frozen=True, eq=False)
+class _Planes:
+    """The planes of a mesh's facets, axis by axis, which numpy takes in faster than rows of three.
+
+    Attributes:
+        origin: where a corner of each is, three of (m,), mm.
+        normal: three of (m,), as long as twice its area, mm2.
+        size: (m,) product of two sides' lengths, mm2.
+    """
+
+    origin: list[Floats]
+    normal: list[Floats]
+    size: Floats
+
+    @staticmethod
+    def of(mesh: TriangleMesh) -> _Planes:
+        columns = np.ascontiguousarray(mesh.vertices.T)
+        a, b, c = (mesh.triangles[:, k].astype(np.int64) for k in range(3))
+        origin = _some(columns, a)
+        e, f = ([x - o for x, o in zip(_some(columns, q), origin, strict=True)] for q in (b, c))
+        size = np.sqrt(dot_columns(e, e) * dot_columns(f, f))
+        return _Planes(origin, cross_columns(e, f), size)
+
+
+def _some(columns: Iterable[NDArray[Any]], rows: Ints) -> list[NDArray[Any]]:
+    """Some rows of each column: numpy takes twice as long by an index."""
+    return [column.take(rows, mode="clip") for column in columns]
+
+
+def _heights(
+    mesh: TriangleMesh, planes: _Planes, one: Ints, two: Ints
+) -> tuple[list[Floats], Floats]:
+    """Three of (k,), corners of facets above others' planes, times twice these' areas, mm3.
+
+    And (k,) by how much each three may be wrong.
+    """
+    origin, normal = _some(planes.origin, two), _some(planes.normal, two)
+    size = UNSURE * planes.size.take(two, mode="clip")
+    columns = np.ascontiguousarray(mesh.vertices.T)
+    result, doubt = [], np.zeros(len(one))
     for k in range(3):
-        corner = first.triangles[one, k]
-        away = [column[corner] - x for column, x in zip(columns, origin, strict=True)]
+        corner = mesh.triangles[:, k].astype(np.int64).take(one, mode="clip")
+        away = [x - o for x, o in zip(_some(columns, corner), origin, strict=True)]
         height = dot_columns(away, normal)
-        if (np.abs(height) <= UNSURE * size * np.sqrt(dot_columns(away, away))).any():
+        unsure = size * np.sqrt(dot_columns(away, away))
+        if (np.abs(height) <= unsure).any():
             raise NotCertain
-        result[:, k] = height
-    return result
+        result.append(height)
+        np.maximum(doubt, unsure, out=doubt)
+    return result, doubt
 
 
-def _straddle(heights: Floats) -> Bools:
-    x, y, z = (heights[:, k] > 0 for k in range(3))
+def _straddle(heights: list[Floats]) -> Bools:
+    x, y, z = (each > 0 for each in heights)
     return np.asarray((x | y | z) & ~(x & y & z), np.bool_)
 
 
+def _main_axis(first: _Planes, second: _Planes, one: Ints, two: Ints) -> Ints:
+    """(k,) the axis that the line in both of two facets' planes runs along most."""
+    along = cross_columns(_some(first.normal, one), _some(second.normal, two))
+    x, y, z = (np.abs(each) for each in along)
+    return np.asarray((y > x) * 1 + (z > np.maximum(x, y)) * (2 - (y > x)), np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class _Sides:
+    """The two sides of facets that run through planes; both end in one corner.
+
+    Attributes:
+        corner: three of (k,), the vertex that is alone on its side of the plane, and those that
+            follow it about the facet.
+        height: three of (k,), theirs above the plane, as of `_heights`.
+    """
+
+    corner: list[Ints]
+    height: list[Floats]
+
+    @staticmethod
+    def of(mesh: TriangleMesh, facet: Ints, heights: list[Floats]) -> _Sides:
+        """Of facets with corners on both sides."""
+        x, y, z = (each > 0 for each in heights)
+        alone = 2 * (x == y) + (x == z)
+        every, count = np.concatenate(heights), len(facet)
+        corners = np.ascontiguousarray(mesh.triangles.T).ravel()
+        corner, height = [], []
+        for step in range(3):
+            place = (alone + step) % 3
+            corner.append(
+                corners.take(place * len(mesh.triangles) + facet, mode="clip").astype(np.int64)
+            )
+            height.append(every.take(place * count + np.arange(count), mode="clip"))
+        return _Sides(corner, height)
+
+    def some(self, rows: Ints) -> _Sides:
+        """Those of some of the facets."""
+        return _Sides(_some(self.corner, rows), _some(self.height, rows))
+
+    def reach(self, mesh: TriangleMesh, axis: Ints, doubt: Floats) -> tuple[Floats, Floats]:
+        """(k,) and (k,) from where to where facets are in the planes along an axis each, at most.
+
+        Args:
+            mesh: that the facets are of.
+            axis: (k,).
+            doubt: (k,) by how much heights may be wrong.
+        """
+        flat = mesh.vertices.ravel()
+        tip, *ends = (flat.take(3 * corner + axis, mode="clip") for corner in self.corner)
+        low, high = np.full(len(axis), np.inf), np.full(len(axis), -np.inf)
+        for end, height in zip(ends, self.height[1:], strict=True):
+            rise = self.height[0] - height
+            at = tip + (end - tip) * (self.height[0] / rise)
+            room = np.abs(end - tip) * (4.0 * doubt / np.abs(rise) + ROUNDING)
+            room += ROUNDING * np.abs(tip)
+            np.minimum(low, at - room, out=low)
+            np.maximum(high, at + room, out=high)
+        return low, high
+
+
 def _crossings(
-    mesh: TriangleMesh, other: TriangleMesh, one: Ints, two: Ints, heights: Floats
+    mesh: TriangleMesh, other: TriangleMesh, sides: _Sides, two: Ints
 ) -> tuple[Crossings, tuple[Ints, Ints, Bools]]:
-    """Where edges of facets `one` run through facets `two` of another mesh.
+    """Where sides of facets run through facets `two` of another mesh.
 
     Returns:
         the crossings, each once, and for every pair of facets that has one: which pair, which
         crossing, and whether the facet's side, as it runs about it, goes from back to front.
     """
-    columns = [np.ascontiguousarray(heights[:, k]) for k in range(3)]
-    corners = [mesh.triangles[one, k] for k in range(3)]
-    sides = []
-    for k in range(3):
-        following = (k + 1) % 3
-        rows = np.flatnonzero((columns[k] > 0) != (columns[following] > 0))
-        each = corners[k], corners[following], columns[k], columns[following]
-        sides.append((rows, *(column[rows] for column in each)))
-    pair, start, end, low, high = (np.concatenate(each) for each in zip(*sides, strict=True))
+    tip, following, last = sides.corner
+    pair = np.tile(np.arange(len(two)), 2)
+    start, end = np.concatenate([tip, last]), np.concatenate([following, tip])
+    low = np.concatenate([sides.height[0], sides.height[2]])
+    high = np.concatenate([sides.height[1], sides.height[0]])
     rises, turned = low < 0, start > end
-    start, end = np.minimum(start, end).astype(np.int64), np.maximum(start, end)
+    start, end = np.minimum(start, end), np.maximum(start, end)
     low, high = np.where(turned, high, low), np.where(turned, low, high)
     edge, count = start * len(mesh.vertices) + end, len(other.triangles)
     if len(mesh.vertices) ** 2 * count > np.iinfo(np.int64).max:
@@ -242,16 +342,17 @@ def _crossings(
         edge * np.int64(count) + two[pair], return_index=True, return_inverse=True
     )
     facet = two[pair[first]]
-    u, v = mesh.vertices[start[first]], mesh.vertices[end[first]]
+    u, v = (corners_at(mesh.vertices, ends[first]) for ends in (start, end))
     through = _through(u, v, corners_at(other.vertices, other.triangles[facet]))
     row = np.cumsum(through) - 1
-    first, facet, u, v = first[through], facet[through], u[through], v[through]
+    kept = np.flatnonzero(through)
+    first, facet, u, v = first[kept], facet[kept], corners_at(u, kept), corners_at(v, kept)
     low, high = low[first], high[first]
     along = low / (low - high)
     ends = np.stack([start[first], end[first]], axis=1)
     found = Crossings(ends, facet, along, low > 0, u + along[:, None] * (v - u))
     number = number.ravel()
-    met = through[number]
+    met = np.flatnonzero(through[number])
     return found, (pair[met], row[number[met]], rises[met])
 
 

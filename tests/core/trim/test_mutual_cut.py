@@ -6,7 +6,8 @@ import trimesh
 
 from volfrep.mesh.booleans import difference, intersection
 from volfrep.mesh.quality import measure
-from volfrep.mesh.triangle_mesh import TriangleMesh, compact
+from volfrep.mesh.triangle_mesh import TriangleMesh, compact, concatenate
+from volfrep.spatial.piercing import piercing_pairs
 from volfrep.spatial.rays import inside_points
 from volfrep.trim.mutual_cut import cut_mutually
 from volfrep.trim.seams import NotCertain, seam_of
@@ -154,6 +155,22 @@ def test_points_of_the_seam_lie_on_both():
         corners = other.vertices[other.triangles[found.facet]]
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         assert np.abs(np.einsum("ij,ij->i", found.points - corners[:, 0], normal)).max() < 1e-11
+
+
+@pytest.mark.parametrize("thin", [1.0, 1e-3, 1e-6])
+def test_a_seam_runs_through_just_the_facets_that_pierce_each_other(thin):
+    random = np.random.default_rng(7)
+    soups = []
+    for size, width in ((1.0, thin), (2.0, 1.0)):
+        corners = random.uniform(-1, 1, (300, 1, 3)) + size * random.uniform(-1, 1, (300, 3, 3))
+        corners[:, 2] = corners[:, 1] + width * (corners[:, 2] - corners[:, 1])  # down to needles
+        rows = np.arange(900, dtype=np.int32).reshape(-1, 3)
+        soups.append(TriangleMesh(corners.reshape(-1, 3), rows))
+    found = np.sort(seam_of(*soups).facets @ [300, 1])
+    pairs = np.sort(piercing_pairs(concatenate(*soups)), axis=1)
+    pairs = pairs[(pairs[:, 0] < 300) & (pairs[:, 1] >= 300)] - [0, 300]
+    np.testing.assert_array_equal(found, np.unique(pairs @ [300, 1]))
+    assert len(found) > 20
 
 
 @pytest.mark.parametrize("centre", [(10, 0, 0), (10, 3, 4), (5, 0, 0), (0, 0, 9)])

@@ -6,8 +6,9 @@ by them; what meshing one cell takes is its kind's (`kinds`), and what a file ta
 its writer and is added up by `reports/estimate`.
 """
 
-#: Triangles that the cut leaves on each area of a facet's edge squared of the wall.
-WALL_TRIANGLES = 1.1
+#: What the cut adds lies along the seam: as many triangles as the lattice has in a layer at the
+#: wall that is so many facets' edges thick. Of 13 parts told over made is 0.77 to 1.18.
+SEAM_TRIANGLES = 1.4
 #: The skin's wall is looked for where the surface bends (`skin_bends`): seconds, bytes and facets
 #: for each bend; and finer where the room between two skins is narrow (`narrow_gaps`). Of 17 parts
 #: with a skin of a hundredth of their length, of CVC and of Octet, time and memory are within a
@@ -23,14 +24,13 @@ BYTES_PER_NARROW = 2.2e3
 SECONDS_PER_BODY = 4e-3
 BYTES_PER_BODY = 1e5
 FACETS_PER_BODY = 100.0
-#: Fixed cost, s; per triangle of a part, s; of a block, s; and of one that is written as it is
-#: laid, of 35 to 307 million triangles 0.5 to 1.3e-7.
+#: Fixed cost, s; per triangle of the octants at the wall, s; of the part; of a block; and of one
+#: that is written as it is laid, of 35 to 307 million triangles 0.5 to 1.3e-7.
 SECONDS = 0.5
-SECONDS_PER_TRIANGLE = 4.5e-6
+SECONDS_PER_CUT_TRIANGLE = 3.3e-6
+SECONDS_PER_TRIANGLE = 2.3e-7
 SECONDS_PER_BLOCK_TRIANGLE = 4e-7
 SECONDS_PER_STREAMED_TRIANGLE = 9e-8
-#: Of a triangle of a part in an octant that the wall does not come near: placed and written.
-SECONDS_PER_PLACED_TRIANGLE = 1.2e-7
 #: A radius or thickness found for a target in a block takes so many seconds and bytes.
 SECONDS_FOR_TARGET = 0.6
 BYTES_FOR_TARGET = 1e8
@@ -55,7 +55,8 @@ BYTES_PER_BOOLEAN_TRIANGLE = 250.0
 BYTES_PER_NETWORK_TRIANGLE = 900.0
 #: Bytes more where octants are moved, which are all different.
 BYTES_GRADED = 1.2e8
-#: How thick the layer of octants at the wall is, in units of L, and what the cut leaves of it.
+#: How thick the layer of octants at the wall is, half of it on either side, in units of L, and what
+#: the cut leaves of it.
 #: Bytes for each triangle left of it and of the wall, and while groups of them are cut; and for
 #: each of a whole mesh, where one is wanted: of seven fills of 0.8 to 21 million triangles, struts
 #: and gyroids, told over held is 0.8 to 1.2 of files and 1.2 to 1.5 of meshes.

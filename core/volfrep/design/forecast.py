@@ -15,7 +15,7 @@ import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.even_points import even_points
-from ..util.linalg import frame_about, normalize, times
+from ..util.linalg import frame_about, times
 from ..util.numbers import duration, round_off
 from ..util.types import Floats
 from . import costs
@@ -120,7 +120,7 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
     dense = _density(solid, spec)
     shelling = _skin_work(solid, spec)
     triangles = len(solid.triangles) + shelling.facets * wall / area
-    cut = costs.WALL_TRIANGLES * wall / edge**2
+    cut = dense * costs.SEAM_TRIANGLES * expected_triangles(spec, wall * edge)
     if spec.output != "domain":
         triangles += dense * expected_triangles(spec, inside) + cut
     # A cell that the wall merely touches is active too: more than half a cell beyond it.
@@ -129,13 +129,14 @@ def forecast_fill(solid: TriangleMesh, spec: LatticeSpec, *, streamed: bool = Fa
         grid = np.ceil(np.ptp(solid.bounds, axis=0) / spec.cell_size - 1e-6).prod()
         cells = min(cells, float(grid) * spec.cell_size**3 / one)
     seconds = costs.SECONDS + shelling.seconds + costs.SECONDS_PER_TRIANGLE * triangles
-    if spec.streams and spec.output != "domain":
-        # Octants that the wall does not come near are placed and written, and no more.
-        far = volume * share_deeper(solid, depth + costs.CUT_LAYER * spec.cell_size)
-        placed = dense * expected_triangles(spec, min(far, inside))
-        each = costs.SECONDS_PER_TRIANGLE - costs.SECONDS_PER_PLACED_TRIANGLE
-        seconds -= each * placed
     if spec.output != "domain":
+        # Octants that the wall crosses are cut whole, with what they have beyond it; those that it
+        # does not come near are placed and written, and no more.
+        layer, far = 0.5 * costs.CUT_LAYER * spec.cell_size, 0.0
+        if spec.streams:
+            far = min(volume * share_deeper(solid, depth + layer), inside)
+        at_wall = dense * expected_triangles(spec, inside + layer * wall - far)
+        seconds += costs.SECONDS_PER_CUT_TRIANGLE * at_wall
         # Within a part all cells are there: those of the octants that are not lie outside.
         seconds += spec.kind.meshing_seconds(1.0)
     held = costs.BYTES_PER_TRIANGLE * triangles
@@ -226,23 +227,9 @@ def skin_bends(solid: TriangleMesh, spec: LatticeSpec) -> float:
     That is what the wall of the skin takes to be found, and its facets: where the surface is flat
     large cubes do. 0 without a skin.
     """
-    return _bending(solid) / spec.shell if spec.shell > 0.0 else 0.0
+    from .skins.plane_faces import bending  # of no use to blocks, and slow to import
 
-
-@lru_cache(maxsize=4)
-def _bending(solid: TriangleMesh) -> float:
-    """The angles across a surface's edges times these' lengths, mm."""
-    from ..spatial.proximity import neighbours  # of no use to blocks, and slow to import
-
-    across = neighbours(solid)
-    a, b, c = solid.corners()
-    normal = normalize(np.cross(b - a, c - a))
-    total = 0.0
-    for k, (start, end) in enumerate(((a, b), (b, c), (c, a))):
-        cosine = np.einsum("ij,ij->i", normal, normal[across[:, k]])
-        angle = np.arccos(np.clip(cosine, -1.0, 1.0))
-        total += 0.5 * float((np.linalg.norm(end - start, axis=1) * angle).sum())
-    return total
+    return bending(solid) / spec.shell if spec.shell > 0.0 else 0.0
 
 
 def narrow_gaps(solid: TriangleMesh, spec: LatticeSpec) -> float:

@@ -4,8 +4,8 @@
 It is the level set of the distance to the outer surface, so it cannot cross itself the way a
 surface of moved faces does. `sampled_depth` samples the depth at the corners of cubes, `octree`
 tells the patches of surface in them, `dual_contouring` makes facets of these, `adaptive_contour`
-halves the cubes whose facets stray, `decimation` takes the facets away that are not needed. Of a
-skin that is thin beside a part of few plane faces these are moved instead (`moved_faces`).
+halves the cubes whose facets stray, `decimation` takes the facets away that are not needed. Where
+a part has few plane faces and cubes would take longer these are moved instead (`moved_faces`).
 
 OpenCASCADE's exact offset fails on real parts and is not used.
 """

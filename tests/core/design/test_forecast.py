@@ -159,6 +159,13 @@ def test_a_thin_skin_of_a_flat_sheet_is_no_long_job():
     assert 0.085 < expected.memory_gb < 0.34
 
 
+@pytest.mark.parametrize(("cell", "made"), [("CVC", 53_478), ("Octet", 121_678)])
+def test_cells_far_larger_than_a_sheet_is_thick_leave_few_triangles(cell, made):
+    """L 50 in 3 mm: as many on the wall as the seam has, where a million were told."""
+    spec = LatticeSpec(cell, cell_size=50.0, strut_radius=0.5, shell=0.15)
+    assert agrees(forecast_fill(samples.sheet((190.0, 279.0, 3.0)), spec).triangles, made)
+
+
 def test_a_file_of_walls_holds_what_the_cut_leaves_and_a_mesh_all_of_them():
     """4.1 million triangles: a fill peaked at 0.29 GB, and at 0.45 where its mesh was wanted."""
     spec = LatticeSpec(SURFACES["Gyroid"], cell_size=8.0, shell=2.0)

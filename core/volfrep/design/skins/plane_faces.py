@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The plane faces of a solid, whatever facets they came in, and where a skin's wall has them moved.
 
-A skin that is thin beside its part is made by moving faces (`shell/moved_faces`) where these are
-few; else its wall is looked for with cubes.
+A skin's wall is made by moving faces (`shell/moved_faces`) where cubes would take long and these
+are few; else it is looked for with cubes.
 """
 
 from __future__ import annotations
@@ -17,10 +17,11 @@ from ...mesh.triangle_mesh import TriangleMesh
 from ...spatial.proximity import neighbours
 from ...util.linalg import along, normalize
 from ...util.types import Floats, Ints
+from .. import costs
 
-#: A skin is thin when the surface is larger than this, in squares of its thickness; then its faces
-#: are moved if they take no more bodies than this, and have no more triangles.
-THIN = 320_000.0
+#: Faces are moved where cubes would take longer, and more seconds than this; and no more than so
+#: many bodies, of no more triangles.
+SLOW = 1.5
 MOST_BODIES = 3000
 MOST_TRIANGLES = 20_000
 #: Vertices of one face lie off its plane by no more than this, in thicknesses, and facets that are
@@ -61,8 +62,12 @@ class PlaneFaces:
         return len(self.normal) + len(self.edges) + PER_BALL * len(self.corners)
 
 
-def find_plane_faces(solid: TriangleMesh, thickness: float) -> PlaneFaces:
+def find_plane_faces(
+    solid: TriangleMesh, thickness: float, most: int = MOST_BODIES
+) -> PlaneFaces | None:
     """The plane faces of a closed solid, flat to `PLANE` of a thickness, mm.
+
+    None where they take more than so many bodies: of a round solid that is known early.
 
     >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
     >>> triangles = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], np.int32)
@@ -70,7 +75,9 @@ def find_plane_faces(solid: TriangleMesh, thickness: float) -> PlaneFaces:
     4
     """
     across = neighbours(solid)
-    face, normal = _grow_faces(solid, across, PLANE * thickness)
+    face, normal = _grow_faces(solid, across, PLANE * thickness, most)
+    if len(normal) > most:
+        return None
     triangle, side = np.nonzero(across > np.arange(len(across))[:, None])
     beside = face[np.stack([triangle, across[triangle, side]], axis=1)]
     parts = beside[:, 0] != beside[:, 1]
@@ -84,14 +91,18 @@ def find_plane_faces(solid: TriangleMesh, thickness: float) -> PlaneFaces:
     angle = np.arctan2(sine, np.einsum("ij,ij->i", one, other))
     count = np.bincount(ends[angle > BEND].ravel(), minlength=len(solid.vertices))
     needed = angle > -BEND
-    return PlaneFaces(
+    found = PlaneFaces(
         solid, face, normal, ends[needed], beside[needed], np.maximum(angle[needed], 0.0),
         np.flatnonzero(count >= 3),
     )  # fmt: skip
+    return found if found.bodies <= most else None
 
 
-def _grow_faces(solid: TriangleMesh, across: Ints, reach: float) -> tuple[Ints, Floats]:
-    """(m,) the face of each triangle and (f, 3) normals: from the largest triangles on."""
+def _grow_faces(solid: TriangleMesh, across: Ints, reach: float, most: int) -> tuple[Ints, Floats]:
+    """(m,) the face of each triangle and (f, 3) normals: from the largest triangles on.
+
+    It ends once there are more than so many; other triangles then have the face -1.
+    """
     corners = np.stack(solid.corners(), axis=1)
     normal, low = facet_normals(solid), heights(corners) < reach
     face = np.full(len(corners), -1)
@@ -110,7 +121,23 @@ def _grow_faces(solid: TriangleMesh, across: Ints, reach: float) -> tuple[Ints, 
             border = near[(off <= reach) & alike]
             face[border] = len(seeds)
         seeds.append(seed)
+        if len(seeds) > most:
+            break
     return face, normal[seeds]
+
+
+@lru_cache(maxsize=4)
+def bending(solid: TriangleMesh) -> float:
+    """The angles across a surface's edges, in radians, times these' lengths: mm."""
+    across = neighbours(solid)
+    a, b, c = solid.corners()
+    normal = normalize(np.cross(b - a, c - a))
+    total = 0.0
+    for k, (start, end) in enumerate(((a, b), (b, c), (c, a))):
+        cosine = np.einsum("ij,ij->i", normal, normal[across[:, k]])
+        angle = np.arccos(np.clip(cosine, -1.0, 1.0))
+        total += 0.5 * float((np.linalg.norm(end - start, axis=1) * angle).sum())
+    return total
 
 
 @lru_cache(maxsize=2)
@@ -121,7 +148,10 @@ def few_plane_faces(solid: TriangleMesh, thickness: float) -> PlaneFaces | None:
         solid: closed, mm.
         thickness: of the skin, mm.
     """
-    if solid.area <= THIN * thickness**2 or len(solid.triangles) > MOST_TRIANGLES:
+    if len(solid.triangles) > MOST_TRIANGLES:
         return None
-    faces = find_plane_faces(solid, thickness)
-    return faces if faces.bodies <= MOST_BODIES else None
+    by_cubes = costs.SECONDS_PER_BEND * bending(solid) / thickness
+    if by_cubes <= SLOW:
+        return None
+    most = int(by_cubes / costs.SECONDS_PER_BODY)
+    return find_plane_faces(solid, thickness, min(most, MOST_BODIES))

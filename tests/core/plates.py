@@ -14,7 +14,7 @@ import numpy as np
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.fem.beam_mesh import BeamMesh, beam_model
 from volfrep.fem.deck import sides, write_beams, write_tetrahedra
-from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
+from volfrep.fem.tet_mesh import TetrahedralMesh, filled_by_gmsh
 from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.mechanics.materials import Material
 from volfrep.mesh.booleans import as_manifold, as_mesh
@@ -66,7 +66,7 @@ def shaken(mesh: TriangleMesh) -> tuple[TetrahedralMesh, float]:
     for seed, rough in enumerate((0.0, 0.001, 0.001, 0.002, 0.002, 0.004, 0.004, 0.008, 0.008)):
         moved = np.random.default_rng(seed).uniform(-rough, rough, mesh.vertices.shape)
         try:
-            return tetrahedra(TriangleMesh(mesh.vertices + moved, mesh.triangles)), rough
+            return filled_by_gmsh(TriangleMesh(mesh.vertices + moved, mesh.triangles)), rough
         except VolfrepError as error:
             said = error
     raise said

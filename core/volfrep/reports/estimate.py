@@ -19,6 +19,7 @@ from ..fem.tet_mesh import (
     BYTES_PER_TRIANGLE,
     ELEMENTS_PER_TRIANGLE,
     NODES_PER_TRIANGLE,
+    SECONDS_PER_CUT_TRIANGLE,
     SECONDS_PER_TRIANGLE,
 )
 from ..fem.tet_mesh import MAX_TRIANGLES as MAX_TETRAHEDRA_TRIANGLES
@@ -226,7 +227,9 @@ def estimate_tetrahedra(triangles: int, asked: ExportChoice | None = None) -> Es
         f"about {ELEMENTS_PER_TRIANGLE * triangles:,.0f} tetrahedra, "
         f"{NODES_PER_TRIANGLE * triangles:,.0f} nodes"
     )
-    return Estimate(what, SECONDS_PER_TRIANGLE * triangles, 1e-6 * BYTES_PER_TRIANGLE * triangles)
+    is_cut = asked is not None and asked.count is None
+    seconds = (SECONDS_PER_CUT_TRIANGLE if is_cut else SECONDS_PER_TRIANGLE) * triangles
+    return Estimate(what, seconds, 1e-6 * BYTES_PER_TRIANGLE * triangles)
 
 
 def _coarser(asked: ExportChoice | None, excess: float) -> str:

@@ -293,7 +293,7 @@ def tetrahedra_of(obj: App.DocumentObject) -> TetrahedralMesh:
     """The infill filled with tetrahedra, in the document's coordinates.
 
     Raises:
-        VolfrepError: Gmsh is missing, or does not manage it.
+        VolfrepError: Gmsh is missing, or neither way fills it.
         Cancelled: in the window, by the user.
     """
     from freecad_volfrep.bridge.solids import mesh_in_document

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tetrahedra by Gmsh: the mesh's own triangles outside, and a bar that CalculiX stretches."""
+"""Tetrahedra: the mesh's own triangles outside, or those of a lattice; bars that are stretched."""
 
 import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 import samples
 from bench.static_step import StaticStep
@@ -14,7 +15,15 @@ from volfrep.fem import tet_mesh
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import sides, write_tetrahedra
 from volfrep.fem.fins import folded_facets
-from volfrep.fem.tet_mesh import MAX_TRIANGLES, mend_surface, nodes_on, tetrahedra
+from volfrep.fem.tet_mesh import (
+    MAX_TRIANGLES,
+    CannotFill,
+    TetrahedralMesh,
+    filled_by_gmsh,
+    mend_surface,
+    nodes_on,
+    tetrahedra,
+)
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mechanics.materials import Material
@@ -92,8 +101,75 @@ def test_what_gmsh_cannot_fill():
         tetrahedra(TriangleMesh(box.vertices, box.triangles[1:]))
     crossing = samples.sphere(10.0, 2)
     crossing.vertices[0] *= -1.5  # out at the other side
-    with pytest.raises(VolfrepError, match="Gmsh cannot fill"):
-        tetrahedra(crossing)
+    with pytest.raises(CannotFill, match="Gmsh cannot fill"):
+        filled_by_gmsh(crossing)
+
+
+def from_lattice(monkeypatch, mesh: TriangleMesh, count: int = 20_000) -> TetrahedralMesh:
+    def refuse(*_):
+        raise CannotFill("Gmsh cannot fill it.")
+
+    monkeypatch.setattr(tet_mesh, "filled_by_gmsh", refuse)
+    monkeypatch.setattr(tet_mesh, "LATTICE_TETRAHEDRA", (count,))
+    monkeypatch.setattr(tet_mesh, "_median_edge", lambda _: 0.0)
+    return tetrahedra(mesh)
+
+
+def test_what_gmsh_cannot_fill_is_filled_from_a_lattice(monkeypatch):
+    spec = LatticeSpec(cell="CVC", cell_size=10, strut_radius=1)
+    mesh = block(spec, (1, 1, 1)).mesh
+    filled = from_lattice(monkeypatch, mesh, 60_000)
+    assert 50_000 < len(filled.elements) < 75_000
+    assert shapes(filled).min() > 0.15
+    assert filled.volumes().sum() == pytest.approx(mesh.volume, rel=0.02)
+    assert filled.grown == pytest.approx(filled.volumes().sum() / mesh.volume - 1.0)
+    corners = filled.elements[:, :4]
+    for node, (a, b) in enumerate(((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)), 4):
+        middle = filled.nodes[corners[:, [a, b]]].mean(axis=1)
+        assert np.abs(filled.nodes[filled.elements[:, node]] - middle).max() < 1e-12
+    # What is told of it: no point of the mesh is farther away.
+    (sentence,) = filled.warnings
+    assert f"from a lattice of {filled.lattice:.3g} mm" in sentence
+    assert f"within {filled.away[0]:.2g} mm" in sentence
+    assert 0.0 < filled.away[1] <= filled.away[0] < filled.lattice
+    outside = tet_mesh.outer_nodes(filled)
+    apart = cKDTree(filled.nodes[outside]).query(mesh.vertices)[0]
+    assert (apart < 0.5 * filled.lattice).all()
+
+
+def test_a_lattice_that_loses_or_joins_too_much_is_refused(monkeypatch):
+    sheet = samples.box((20.0, 20.0, 0.3))
+    near = concatenate(samples.box((4.0, 4.0, 4.0)), samples.box((4.0, 4.0, 4.0), (4.02, 0.0, 0.0)))
+    for mesh in (sheet, near):
+        with pytest.raises(CannotFill, match=r"Gmsh cannot fill it. A lattice .* (bodies|volume)"):
+            from_lattice(monkeypatch, mesh, 1000)
+    # A finer one is tried before.
+    monkeypatch.setattr(tet_mesh, "LATTICE_TETRAHEDRA", (1000, 60_000))
+    filled = tetrahedra(sheet)
+    assert filled.lattice < 0.35
+    assert filled.volumes().sum() == pytest.approx(120.0, rel=0.05)
+
+
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
+def test_a_bar_from_a_lattice_is_stretched_and_knows_its_outside(monkeypatch, tmp_path: Path):
+    bar = samples.box((40.0, 4.0, 4.0))
+    filled = from_lattice(monkeypatch, bar, 12_000)
+    on = nodes_on(filled, bar)
+    low, high = bar.bounds
+    depth = np.minimum(filled.nodes - low, high - filled.nodes).min(axis=1)
+    # All of its faces' nodes, and those that bridge its edges.
+    assert np.array_equal(on, tet_mesh.outer_nodes(filled))
+    assert set(np.flatnonzero(depth < 1e-9)) <= set(on)
+    assert depth[on].max() < filled.lattice / 2
+    side = sides(filled.nodes)
+    assert len(side["XMIN"]) > 20 < len(side["XMAX"])
+    path = tmp_path / "bar.inp"
+    step = StaticStep(side["XMIN"], side["XMAX"], (320.0, 0, 0))
+    write_tetrahedra(filled, path, Material("STEEL", 210_000.0, 0.0, 7.85))
+    step.add_to(path, of_beams=False)
+    moved = solve(path)[side["XMAX"], 0]
+    area = filled.volumes().sum() / 40.0
+    assert moved.mean() == pytest.approx(320 * 40 / 210_000 / area, rel=0.05)
 
 
 @pytest.mark.slow
@@ -154,10 +230,17 @@ def test_what_gmsh_finds_to_intersect_is_mended_less(monkeypatch):
 
     monkeypatch.setattr(tet_mesh, "mend_surface", mend)
     monkeypatch.setattr(tet_mesh, "_run_gmsh", lambda *_: (said, None))
-    with pytest.raises(VolfrepError, match="facet-facet intersection"):
-        tetrahedra(samples.box((4.0, 4.0, 4.0)))
+    with pytest.raises(CannotFill, match="facet-facet intersection"):
+        filled_by_gmsh(samples.box((4.0, 4.0, 4.0)))
     assert len(asked) == 1 + tet_mesh.GMSH_TRIES
     assert asked[1][0].tolist() == [[1.5, -2.0, 0.3]]
+    asked.clear()
+    with monkeypatch.context() as no_time:
+        no_time.setattr(tet_mesh, "PATIENCE", 0.0)
+        no_time.setattr(tet_mesh, "LEAST_PATIENCE", -1.0)
+        with pytest.raises(CannotFill):
+            filled_by_gmsh(samples.box((4.0, 4.0, 4.0)))
+    assert len(asked) == 1
     asked.clear()
     monkeypatch.setattr(
         tet_mesh, "_run_gmsh", lambda *given: filled(*given) if len(asked) > 1 else (said, None)
@@ -222,8 +305,8 @@ def test_without_an_end_of_improving_the_tetrahedra_stay_as_they_are(monkeypatch
     monkeypatch.setattr(tet_mesh, "PATIENCE", 0.0)
     monkeypatch.setattr(tet_mesh, "LEAST_PATIENCE", 0.0)
     monkeypatch.setattr(tet_mesh, "run_program", run)
-    with pytest.raises(VolfrepError, match=r"no end within 0 s.*beams"):
-        tetrahedra(samples.box((4.0, 4.0, 4.0)))
+    with pytest.raises(CannotFill, match=r"no end within 0 s.*beams"):
+        filled_by_gmsh(samples.box((4.0, 4.0, 4.0)))
 
 
 def test_each_try_mends_less_and_farther_about_what_crosses(monkeypatch):

@@ -45,6 +45,12 @@ def test_a_coarser_resolution_is_the_nearest_setting_that_fits():
         estimate_tetrahedra(400_000, ExportChoice(SPEC))
 
 
+def test_tetrahedra_of_a_part_take_longer_as_the_needles_of_its_cut_are_mended():
+    part, free = (estimate_tetrahedra(50_000, ExportChoice(SPEC, n)) for n in (None, (2, 2, 2)))
+    assert (part.seconds, free.seconds) == pytest.approx((50.0, 20.0))
+    assert part.what == free.what
+
+
 def test_where_no_resolution_is_coarse_enough_there_must_be_fewer_cells():
     with pytest.raises(VolfrepError, match="cells of 47 mm, or"):
         estimate_faceted(100_000_000, ExportChoice(SPEC))

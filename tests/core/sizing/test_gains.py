@@ -18,7 +18,7 @@ from volfrep.design.cells import PAPERS
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import write_tetrahedra
 from volfrep.fem.joint_loads import balls_of
-from volfrep.fem.tet_mesh import tetrahedra
+from volfrep.fem.tet_mesh import filled_by_gmsh
 from volfrep.io.solid import check_solid
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing import Goal, size
@@ -104,7 +104,7 @@ def solid_work(infill, shares, held, loaded, force, folder):
     for tolerance in (0.03, 0.025, 0.02, 0.015, 0.01):
         body = as_mesh(as_manifold(infill.part.mesh).simplify(tolerance))
         with contextlib.suppress(VolfrepError):
-            filled = tetrahedra(body)
+            filled = filled_by_gmsh(body)
             break
     frame = infill.struts
     balls = balls_of(filled, frame, loaded)

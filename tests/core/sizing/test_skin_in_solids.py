@@ -13,7 +13,7 @@ from bench.static_step import StaticStep
 from volfrep import LatticeSpec
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import write_tetrahedra
-from volfrep.fem.tet_mesh import TetrahedralMesh, tetrahedra
+from volfrep.fem.tet_mesh import TetrahedralMesh, filled_by_gmsh
 from volfrep.io.solid import check_solid
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.sizing import Goal, size
@@ -50,7 +50,7 @@ def filled_with(mesh: TriangleMesh) -> TetrahedralMesh:
     for tolerance, length in ((0.03, FINE), (0.01, 3.0), (0.015, 2.5), (0.025, 2.5), (0.03, 3.0)):
         body = as_manifold(mesh).simplify(tolerance)
         with contextlib.suppress(VolfrepError):
-            return tetrahedra(as_mesh(body.refine_to_length(length)))
+            return filled_by_gmsh(as_mesh(body.refine_to_length(length)))
     raise AssertionError("Gmsh takes none of them")
 
 

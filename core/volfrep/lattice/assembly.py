@@ -22,6 +22,8 @@ from ..util.types import Floats
 
 #: Octants are placed in groups of about so many vertices or triangles: a cancel is soon seen.
 CHUNK_VERTICES = 200_000
+#: With so many times fewer vertices wanted than there are, these are sorted and not counted.
+FEW = 32
 #: The entity of vertices inside an octant.
 INSIDE = 13
 
@@ -137,12 +139,19 @@ def coordinates_of(
         monitor: for cancel.
         shared: whether all of them lie on faces of octants.
     """
-    vertices = np.empty((len(wanted), 3))
+    vertices = np.empty((len(wanted) + 1, 3))
+    if FEW * len(wanted) > layout.count:
+        # What is not asked for goes to the last row: a place for each is soon found.
+        place = np.full(layout.count, len(wanted), np.int32)
+        place[wanted] = np.arange(len(wanted))
+        for number, points in placed_octants(layout, where, monitor, shared=shared):
+            vertices[place.take(number, mode="clip")] = points
+        return vertices[:-1]
     for number, points in placed_octants(layout, where, monitor, shared=shared):
         row = np.minimum(np.searchsorted(wanted, number), len(wanted) - 1)
         found = wanted[row] == number
         vertices[row[found]] = points[found]
-    return vertices
+    return vertices[:-1]
 
 
 def placed_octants(

@@ -14,6 +14,7 @@ from ..octants.octant import used_kinds
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .assembly import (
+    FEW,
     Layout,
     coordinates_of,
     facets,
@@ -23,9 +24,6 @@ from .assembly import (
     placed,
     placed_octants,
 )
-
-#: With so many times fewer corners than vertices in all, these are sorted and not counted.
-FEW = 32
 
 
 @dataclass(frozen=True, eq=False)

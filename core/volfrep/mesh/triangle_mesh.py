@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-Number = TypeVar("Number", np.float64, np.float32, np.int32)
+Number = TypeVar("Number", np.float64, np.float32, np.int32, np.int64)
 
 #: The least and the greatest coordinates are found of so many points in a row.
 BOX_POINTS = 1 << 8

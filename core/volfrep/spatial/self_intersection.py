@@ -175,17 +175,21 @@ def _pairs_in(
 ) -> tuple[Ints, Ints]:  # fmt: skip
     """The pairs that some of the visits find."""
     row, place = spread(bins.count[begin:end])
-    row, place = begin + row, bins.first[begin + row] + place
+    row += begin
+    place += bins.first.take(row, mode="clip")
     # Boxes overlap in many bins: in the first of these one of the two begins.
-    here = (bins.ours[row] | bins.begins[place]) == ALONG_ALL
-    a, b = bins.visits[row[here]], bins.waits[place[here]]
+    begins = bins.ours.take(row, mode="clip") | bins.begins.take(place, mode="clip")
+    here = np.flatnonzero(begins == ALONG_ALL)
+    a = bins.visits.take(row.take(here, mode="clip"), mode="clip")
+    b = bins.waits.take(place.take(here, mode="clip"), mode="clip")
     # Of two chosen ones of a size both visit: once is enough.
-    keep = (a < b) | (level[a] < grid) | ~among[b]
-    a, b = a[keep], b[keep]
+    keep = (a < b) | (level.take(a, mode="clip") < grid) | ~among.take(b, mode="clip")
+    a, b = (each.take(np.flatnonzero(keep), mode="clip") for each in (a, b))
     for axis in range(3):
         lo, hi = low[:, axis], high[:, axis]
-        keep = (lo[a] <= hi[b]) & (lo[b] <= hi[a])
-        a, b = a[keep], b[keep]
+        keep = lo.take(a, mode="clip") <= hi.take(b, mode="clip")
+        keep &= lo.take(b, mode="clip") <= hi.take(a, mode="clip")
+        a, b = (each.take(np.flatnonzero(keep), mode="clip") for each in (a, b))
     return a, b
 
 

@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..mesh.topology import edge_keys, pieces_of
-from ..mesh.triangle_mesh import TriangleMesh, corners_at
+from ..mesh.triangle_mesh import TriangleMesh, corners_at, rows_where
 from ..mesh.triangulation import triangulate
 from ..spatial.rays import inside_points
 from ..util.progress import Monitor
@@ -162,7 +162,7 @@ class _Side:
         kept = self._find_kept(len(vertices), stays, wanted)
         uncut = wanted.copy()
         uncut[self.cut] = False
-        uncut &= kept[self.triangles[:, 0]]
+        uncut &= kept.take(self.triangles[:, 0], mode="clip")
         whole = np.flatnonzero(uncut)
         facet, start, end = self._outlines(kept)
         some = wanted[facet]
@@ -170,7 +170,7 @@ class _Side:
             vertices, self.triangles, facet[some], start[some], end[some]
         )
         return (
-            np.concatenate([self.triangles[whole], pieces]),
+            np.concatenate([corners_at(self.triangles, whole), pieces]),
             np.concatenate([whole, source]),
         )
 
@@ -179,7 +179,7 @@ class _Side:
         open_edges = self.edge[np.diff(self.first) == 0]
         rows = self.linked.copy()
         rows[self.cut] = False
-        joins = self.triangles[rows]
+        joins = rows_where(rows, self.triangles)
         start = np.concatenate([joins[:, 0], joins[:, 1], open_edges[:, 0]])
         end = np.concatenate([joins[:, 1], joins[:, 2], open_edges[:, 1]])
         pieces, label = pieces_of(start, end, count)
@@ -192,14 +192,14 @@ class _Side:
         if (yes & no).any():
             raise NotCertain
         used = np.zeros(pieces, bool)
-        used[label[self.triangles[wanted].ravel()]] = True
+        corners = rows_where(wanted, self.triangles).ravel()
+        used[label.take(corners, mode="clip")] = True
         open_pieces = np.flatnonzero(used & ~(yes | no))
         if len(open_pieces):
             some = np.full(pieces, -1, np.int64)
-            corners = self.triangles[wanted].ravel()
             some[label[corners]] = corners
             yes[open_pieces] = stays(some[open_pieces])
-        result: Bools = yes[label]
+        result: Bools = yes.take(label, mode="clip")
         return result
 
     def _outlines(self, kept: Bools) -> tuple[Ints, Ints, Ints]:
@@ -315,15 +315,15 @@ def _triangulate(
     """Triangles within polygons with holes; outlines of a facet follow each other."""
     if not len(owner):
         return np.zeros((0, 3), np.int64), np.zeros(0, np.int64)
-    of = np.repeat(owner, length)
-    frame = corners_at(vertices, triangles[of])
+    frame = corners_at(vertices, triangles[owner])
     along = frame[:, 1] - frame[:, 0]
     along /= np.linalg.norm(along, axis=1)[:, None]
     up = np.cross(along, frame[:, 2] - frame[:, 0])
     up /= np.linalg.norm(up, axis=1)[:, None]
-    away = vertices[corner] - frame[:, 0]
-    across = np.cross(up, along)
-    flat = np.stack([np.einsum("ij,ij->i", away, axis) for axis in (along, across)], axis=1)
+    of = np.repeat(np.arange(len(owner)), length)
+    away = corners_at(vertices, corner) - corners_at(frame[:, 0], of)
+    axes = (corners_at(axis, of) for axis in (along, np.cross(up, along)))
+    flat = np.stack([np.einsum("ij,ij->i", away, axis) for axis in axes], axis=1)
     facets, number = np.unique(owner, return_inverse=True)
     number = number.ravel()
     # Side by side, so that few calls do.
@@ -336,5 +336,5 @@ def _triangulate(
     for begin, stop in pairwise(cuts):
         found = triangulate(loops[begin:stop]) + (end[begin] - length[begin])
         result.append(corner[found])
-        source.append(of[found[:, 0]])
+        source.append(owner[of[found[:, 0]]])
     return np.concatenate(result), np.concatenate(source)

@@ -152,14 +152,15 @@ def _near_pairs(first: TriangleMesh, second: TriangleMesh) -> tuple[Ints, Ints]:
         middle = np.stack([column[runs] for column in middle], axis=1)
         for k in range(0, len(run), PAIRS_PER_STEP):
             r, f = run[k : k + PAIRS_PER_STEP], facet[k : k + PAIRS_PER_STEP]
-            above = np.einsum("ij,ijk->ik", normal[f], middle[r]) - offset[f, None]
-            row, place = np.divmod(np.flatnonzero(np.abs(above) <= reach[r]), RUN)
-            r, two = r[row], f[row]
-            one = runs[r, place]
+            above = np.einsum("ij,ijk->ik", corners_at(normal, f), corners_at(middle, r))
+            above -= offset[f, None]
+            row, place = np.divmod(np.flatnonzero(np.abs(above) <= corners_at(reach, r)), RUN)
+            two, one = f[row], rows.take(r[row] * RUN + place, mode="clip")
             for axis in range(3):
-                keep = low[axis][one] <= most[axis][two]
-                keep &= least[axis][two] <= high[axis][one]
-                one, two = one[keep], two[keep]
+                starts, ends = low[axis].take(one, mode="clip"), high[axis].take(one, mode="clip")
+                keep = starts <= most[axis].take(two, mode="clip")
+                keep &= least[axis].take(two, mode="clip") <= ends
+                one, two = _some((one, two), np.flatnonzero(keep))
             found.append((one, two))
     one, two = (np.concatenate(column) for column in zip(*found, strict=True))
     return one, two

@@ -257,7 +257,8 @@ def facets_at(
     path: str | os.PathLike[str],
 ) -> Facets:
     """`facets_of` triangles of numbered vertices, (n, 3) mm."""
-    return facets_of(vertices[triangles].astype(np.float32, copy=False), path)
+    corners = np.take(vertices, triangles, axis=0, mode="clip")  # as `corners_at`
+    return facets_of(corners.astype(np.float32, copy=False), path)
 
 
 def facets_of(corners: NDArray[np.float32], path: str | os.PathLike[str]) -> Facets:
@@ -268,7 +269,9 @@ def facets_of(corners: NDArray[np.float32], path: str | os.PathLike[str]) -> Fac
     """
     facets = np.zeros(len(corners), FACET)
     facets["corners"] = corners
-    e, f = (np.ascontiguousarray((corners[:, k] - corners[:, 0]).T) for k in (1, 2))
+    # A row for every number of a facet: numpy is slow at many short rows.
+    a, b, c = np.ascontiguousarray(corners.reshape(-1, 9).T).reshape(3, 3, -1)
+    e, f = b - a, c - a
     normal = np.stack([e[i] * f[j] - e[j] * f[i] for i, j in ((1, 2), (2, 0), (0, 1))])
     length = np.sqrt((normal * normal).sum(axis=0))
     flat = np.flatnonzero(length == 0.0)

@@ -43,11 +43,11 @@ class OpenShells:
     triangles: int
     vertices: int
 
-    def at(self, vertices: Ints, mesh: TriangleMesh) -> Ints:
-        """(k,) the shells that some vertices of the mesh belong to."""
+    def at(self, vertices: Ints, mesh: TriangleMesh, rows: Ints) -> Ints:
+        """(k,) the shells that some vertices of the mesh belong to, which triangles `rows` have."""
         shell = np.zeros(len(mesh.vertices), np.int64)
-        for corner in mesh.triangles.T:
-            shell[corner] = self.shell
+        for corner in mesh.triangles[rows].T:
+            shell[corner] = self.shell[rows]
         return shell[vertices]
 
     def inspection(self, mesh: TriangleMesh, open_edges: int) -> Inspection:

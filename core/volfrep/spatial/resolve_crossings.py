@@ -23,7 +23,14 @@ from numpy.typing import NDArray
 
 from ..mesh.float32_repair import Repair
 from ..mesh.precision import decimal_step, rounded
-from ..mesh.topology import displaced_vertices, edge_keys, pieces_of, touching, vertices_of
+from ..mesh.topology import (
+    corners_among,
+    displaced_vertices,
+    edge_keys,
+    pieces_of,
+    touching,
+    vertices_of,
+)
 from ..mesh.triangle_mesh import TriangleMesh, compact, triangle_boxes
 from ..util.linalg import cross_columns, normalize
 from ..util.progress import Monitor
@@ -69,9 +76,9 @@ BLOCK_TRIANGLES = 1 << 15
 ROOM = 0.15
 #: The most cells along the longest side of the grid by which triangles near others are picked.
 MOST_CELLS = 160
-#: Of a triangle it is known whether the surface turns back at its edges; it does at one of them;
-#: it crosses nothing of its part, and meets nothing of another one; it is no sliver of the
-#: precision that goes with the step.
+#: Of a triangle it is known whether the surface turns back at its edges, all of them (where it is
+#: not, at those to known ones); it does at one of them; it crosses nothing of its part, and meets
+#: nothing of another one; it is no sliver of the precision that goes with the step.
 JUDGED, TURNED, APART, SOUND = 1, 2, 4, 8
 
 
@@ -140,10 +147,9 @@ class Looks:
         return np.asarray(self.marks & APART != 0, np.bool_)
 
     def folds(self, mesh: TriangleMesh, deformed: bool) -> Bools:
-        """As `find_folds`, by a look at what is not judged, and what touches it."""
+        """As `find_folds`, by a look at edges between triangles that are not judged."""
         turned = self.marks & TURNED != 0
-        unknown = vertices_of(mesh.triangles[self.marks & JUDGED == 0], len(mesh.vertices))
-        rows = np.flatnonzero(touching(unknown, mesh.triangles))
+        rows = np.flatnonzero(self.marks & JUDGED == 0)
         if len(rows):
             part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
             turned[rows[turning(part, deformed)]] = True
@@ -162,14 +168,15 @@ def look_at(
 
     Args:
         mesh: the part.
-        rim: its vertices at which others follow: what touches these is not judged.
+        rim: its vertices at which others follow: what has an edge there is not judged, and of what
+            touches them it is not told that it crosses nothing.
         deformed: as of `folds_of`.
         step: of the decimals of a text of the whole surface, mm.
         alone: tells which of its triangles meet nothing of another part.
         monitor: asked for a cancel.
     """
-    open_ = touching(vertices_of(rim, len(mesh.vertices)), mesh.triangles)
-    marks = np.where(open_, np.uint8(0), np.uint8(JUDGED))
+    at_rim = corners_among(vertices_of(rim, len(mesh.vertices)), mesh.triangles)
+    open_, marks = at_rim > 0, np.where(at_rim > 1, np.uint8(0), np.uint8(JUDGED))
     turned = turning(mesh, deformed)
     if not len(turned):
         return Looks(marks, step)

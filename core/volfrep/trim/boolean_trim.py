@@ -34,7 +34,7 @@ from .culling import KeptOctants, without_pinches
 from .group_cut import Group, Piece, cut_group, read_runs
 from .octant_groups import Groups, group_octants
 from .placed_lattice import InnerOctants, PlacedLattice, Proof, prove
-from .trimmed_surface import TrimmedSurface, concatenated_at, equal_rows
+from .trimmed_surface import TrimmedSurface, concatenated_at, equal_rows, hash_points
 
 if TYPE_CHECKING:
     import manifold3d
@@ -360,15 +360,10 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     begin = np.cumsum([0] + [len(piece.mesh.triangles) for piece in pieces])
     seam = np.concatenate([piece.rim + k for piece, k in zip(pieces, first, strict=False)])
     owner = np.searchsorted(first, seam, "right") - 1
-    from scipy.spatial import cKDTree  # slow to import
-
     points = np.concatenate([piece.mesh.vertices[piece.rim] for piece in pieces])
-    pairs = cKDTree(points).query_pairs(tolerance, output_type="ndarray").astype(np.int64)
-    count, cluster = pieces_of(pairs[:, 0], pairs[:, 1], len(seam))
+    cluster, chosen, row = _same_vertices(points, rim, tolerance)
     # Of one piece no two vertices may become one.
     loose = [_twice(cluster, owner)]
-    chosen = np.full(count, len(seam))
-    np.minimum.at(chosen, cluster, np.arange(len(seam)))
     stays = np.ones(first[-1], bool)
     stays[seam] = False
     stays[seam[chosen]] = True
@@ -377,31 +372,66 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     number[seam] = number[seam[chosen[cluster]]]
     mesh = TriangleMesh(np.empty((int(stays.sum()), 3)), np.empty((begin[-1], 3), np.int32))
     at_seam, some, filled = np.zeros(len(stays), bool), [np.zeros(0, np.int64)], 0
-    at_seam[seam] = True
+    at_seam[seam], shells = True, []
     for k, piece in enumerate(pieces):
         own, rows = slice(first[k], first[k + 1]), slice(begin[k], begin[k + 1])
         corners = piece.mesh.triangles
         np.take(number[own], corners, out=mesh.triangles[rows], mode="clip")
-        some.append(np.flatnonzero(corners_among(at_seam[own], corners) >= 2) + begin[k])
+        among = corners_among(at_seam[own], corners)
+        some.append(np.flatnonzero(among >= 2) + begin[k])
+        if piece.shells is not None:
+            shells.append(piece.shells.at(piece.rim, piece.mesh, np.flatnonzero(among)))
         kept = rows_where(stays[own], piece.mesh.vertices)
         mesh.vertices[filled : filled + len(kept)] = kept
         filled += len(kept)
-    row = equal_rows(rim, points[chosen])
     at_rim = np.where(row < 0, -1, number[seam[chosen[row]]]).astype(np.int64)
     open_ = _open(mesh, np.concatenate(some), number[seam[chosen]], at_rim[row >= 0])
     loose.append(np.searchsorted(begin, open_, "right") - 1)
     sound = not any(map(len, loose))
     return Joined(
         mesh, on_boundary, np.unique(np.concatenate(loose)), _known_looks(pieces), at_rim,
-        _join_shells(pieces, cluster, len(mesh.vertices)) if sound else None,
+        _join_shells(pieces, shells, cluster, len(mesh.vertices)) if sound else None,
     )  # fmt: skip
 
 
-def _join_shells(pieces: Sequence[Piece], cluster: Ints, vertices: int) -> OpenShells | None:
+def _same_vertices(points: Floats, rim: Floats, tolerance: float) -> tuple[Ints, Ints, Ints]:
+    """Which vertices at seams are one.
+
+    Args:
+        points: (n, 3) of all pieces, mm.
+        rim: (k, 3) vertices at which the whole may be open, mm.
+        tolerance: mm.
+
+    Returns:
+        (n,) a number for each, (c,) the first one of each number, and (k,) the number of each at
+        the rim, -1 for none.
+    """
+    # Mostly both sides have the very same numbers: only where one has no fellow is it looked for.
+    _, first, cluster, often = np.unique(
+        hash_points(points), return_index=True, return_inverse=True, return_counts=True
+    )
+    cluster, row = cluster.ravel(), equal_rows(rim, points[first])
+    alone = often == 1
+    alone[row[row >= 0]] = False
+    if alone.any() or not np.array_equal(points[first[cluster]], points):
+        from scipy.spatial import cKDTree  # slow to import
+
+        pairs = cKDTree(points).query_pairs(tolerance, output_type="ndarray").astype(np.int64)
+        count, cluster = pieces_of(pairs[:, 0], pairs[:, 1], len(points))
+        first = np.full(count, len(points))
+        np.minimum.at(first, cluster, np.arange(len(points)))
+        row = equal_rows(rim, points[first])
+    return cluster, first, row
+
+
+def _join_shells(
+    pieces: Sequence[Piece], shells: Sequence[Ints], cluster: Ints, vertices: int
+) -> OpenShells | None:
     """The shells of pieces that are joined.
 
     Args:
         pieces: joined edge for edge.
+        shells: of the vertices at the rims of those whose shells are known.
         cluster: (k,) a number for each vertex at their rims; those of one number are one.
         vertices: how many there are then.
     """
@@ -409,10 +439,7 @@ def _join_shells(pieces: Sequence[Piece], cluster: Ints, vertices: int) -> OpenS
     if len(parts) < len(pieces):
         return None
     begin = np.cumsum([0] + [len(part.volume) for part in parts])
-    each = [
-        part.at(piece.rim, piece.mesh) + k
-        for piece, part, k in zip(pieces, parts, begin, strict=False)
-    ]
+    each = [shell + k for shell, k in zip(shells, begin, strict=False)]
     order = np.argsort(cluster, kind="stable")
     shell, same = np.concatenate(each)[order], np.diff(cluster[order]) == 0
     return joined_shells(parts, shell[:-1][same], shell[1:][same], vertices)

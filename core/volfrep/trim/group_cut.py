@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 from ..lattice.assembly import facets, neighbour_missing
 from ..lattice.placed_octants import Placed
 from ..mesh.booleans import from_library, to_library
-from ..mesh.float32_repair import STEPS, slivers, without_inner_slivers
+from ..mesh.float32_repair import NEARLY, STEPS, slivers, without_inner_slivers
 from ..mesh.open_shells import OpenShells, open_shells
-from ..mesh.topology import open_vertices, touching, vertices_of
+from ..mesh.topology import open_vertices
 from ..mesh.triangle_mesh import TriangleMesh, compact, compacted, empty_mesh
 from ..spatial.rays import inside_points
 from ..spatial.resolve_crossings import SOUND, Looks, look_at
@@ -173,9 +173,9 @@ def _look_at_piece(piece: Piece, group: Group, monitor: Monitor) -> Piece:
 
     deformed = placed.points is not None
     looks = monitor.call(lambda: look_at(mesh, piece.rim, deformed, step, alone, Monitor()))
-    # Where it is joined its vertices may move a little.
-    sound = ~touching(vertices_of(piece.rim, len(mesh.vertices)), mesh.triangles)
-    sound[slivers(mesh, group.precision)] = False
+    # Where it is joined its vertices may move by far less than is left of them then.
+    sound = np.ones(len(mesh.triangles), bool)
+    sound[slivers(mesh, NEARLY * group.precision)] = False
     looks.marks[sound] |= SOUND
     return replace(piece, looks=looks, shells=monitor.call(lambda: open_shells(mesh)))
 

@@ -291,7 +291,7 @@ def _repeats(triangles: NDArray[np.int32]) -> bool:
 
 def equal_rows(points: Floats, among: Floats) -> Ints:
     """(k,) the row of `among` (n, 3) with the very same numbers as each of `points`; -1: none."""
-    ours, theirs = _hash_points(points), _hash_points(among)
+    ours, theirs = hash_points(points), hash_points(among)
     # Most rows end otherwise than all that are looked for, and need no place in an order.
     asked = np.zeros(ASKED, bool)
     asked[ours % ASKED] = True
@@ -313,7 +313,7 @@ def equal_rows(points: Floats, among: Floats) -> Ints:
     return result
 
 
-def _hash_points(points: Floats) -> NDArray[np.uint64]:
+def hash_points(points: Floats) -> NDArray[np.uint64]:
     """(n,) a number for each point, equal where the coordinates are.
 
     Each coordinate is mixed in by the finaliser of SplitMix64 (Steele, Lea and Flood, 2014): cells

@@ -55,8 +55,11 @@ def test_two_halves_of_a_ball_in_a_box_have_the_shells_of_the_whole() -> None:
     # Where both have the same vertex their shells go together.
     ours, theirs = ({tuple(v): k for k, v in enumerate(part.vertices)} for part in parts)
     seam = sorted(set(ours) & set(theirs))
-    first = shells[0].at(np.array([ours[v] for v in seam]), parts[0])
-    second = shells[1].at(np.array([theirs[v] for v in seam]), parts[1]) + len(shells[0].volume)
+    first, second = (
+        shell.at(np.array([number[v] for v in seam]), part, np.arange(len(part.triangles)))
+        for shell, part, number in zip(shells, parts, (ours, theirs), strict=True)
+    )
+    second += len(shells[0].volume)
     joined = joined_shells(shells, first, second, len(mesh.vertices))
     whole = TriangleMesh(
         mesh.vertices, np.concatenate([mesh.triangles[r] for r in halves(mesh)[1]])

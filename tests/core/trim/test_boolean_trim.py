@@ -21,7 +21,7 @@ from volfrep.grid.placement import NUDGE
 from volfrep.mesh import quality
 from volfrep.mesh.float32_repair import shortest_edge, slivers
 from volfrep.mesh.precision import decimal_step
-from volfrep.mesh.triangle_mesh import TriangleMesh
+from volfrep.mesh.triangle_mesh import TriangleMesh, compact
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
 from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.octants.octant_spec import OctantSpec
@@ -344,31 +344,32 @@ def test_groups_that_do_not_meet_are_cut_as_one(small_groups, monkeypatch):
     assert len(counts) == 2
 
 
-@pytest.mark.parametrize("turned", [True, False], ids=["back to back", "twice"])
-def test_triangles_that_lie_on_each_other_in_two_pieces_are_found_out(turned):
-    ball = trimesh.creation.icosphere(2)
+def joined_halves(order=None, other=None, off=0.0):
+    """A ball's halves, joined; with a triangle beside each of them, the second one moved."""
+    ball, pieces = trimesh.creation.icosphere(2), []
     upper = ball.triangles_center[:, 2] > 0.0
-    flat = np.array([[3.0, 0.0, 0.0], [4.0, 0.0, 0.0], [3.0, 1.0, 0.0]])
+    for chosen, more, moved in ((upper, order, 0.0), (~upper, other, off)):
+        vertices, faces = ball.vertices + moved, ball.faces[chosen]
+        if more is not None:
+            faces = np.concatenate([faces, [np.add(more, len(vertices))]])
+            vertices = np.concatenate([vertices, [[3.0, 0.0, 0.0], [4.0, 0.0, 0.0], [3.0, 1.0, 0]]])
+        mesh = compact(TriangleMesh(vertices, faces.astype(np.int32)))
+        pieces.append(Piece(mesh, np.ones(len(faces), bool), rim_of(mesh)))
+    return join(pieces, np.zeros((0, 3)), 1e-9), len(ball.vertices)
 
-    def joined(*pieces):
-        meshes = [trimesh.Trimesh(*each).process() for each in pieces]
-        meshes = [TriangleMesh(each.vertices, each.faces.astype(np.int32)) for each in meshes]
-        return join(
-            [Piece(mesh, np.ones(len(mesh.triangles), bool), rim_of(mesh)) for mesh in meshes],
-            np.zeros((0, 3)), 1e-9,
-        )  # fmt: skip
 
-    def half(chosen, order=None):
-        faces, vertices = ball.faces[chosen], ball.vertices
-        if order is not None:
-            faces = np.concatenate([faces, [np.add(order, len(vertices))]])
-            vertices = np.concatenate([vertices, flat])
-        return vertices, faces
+@pytest.mark.parametrize("off", [0.0, 1e-10])
+def test_pieces_whose_vertices_differ_by_rounding_only_are_joined(off):
+    found, vertices = joined_halves(off=off)
+    assert not len(found.loose)
+    assert len(found.mesh.vertices) == vertices
+    assert quality.measure(found.mesh).watertight
+    assert joined_halves(off=1e-6)[0].loose.tolist() == [0, 1]
 
-    assert not len(joined(half(upper), half(~upper)).loose)
-    other = (0, 2, 1) if turned else (0, 1, 2)
-    found = joined(half(upper, (0, 1, 2)), half(~upper, other))
-    assert found.loose.tolist() == [0, 1]
+
+@pytest.mark.parametrize("other", [(0, 2, 1), (0, 1, 2)], ids=["back to back", "twice"])
+def test_triangles_that_lie_on_each_other_in_two_pieces_are_found_out(other):
+    assert joined_halves((0, 1, 2), other)[0].loose.tolist() == [0, 1]
 
 
 @pytest.mark.costly

@@ -28,12 +28,12 @@ def test_points_of_cells_that_repeat_differ_in_their_numbers():
     steps = np.stack(np.meshgrid(*[np.arange(-12, 12)] * 3, indexing="ij"), axis=-1)
     points = 4.0 * steps.reshape(-1, 3) + REPEATED[0]
     both = np.concatenate([points, points * [-1.0, -1.0, 1.0]])
-    assert len(np.unique(trimmed_surface._hash_points(both))) == len(both)
+    assert len(np.unique(trimmed_surface.hash_points(both))) == len(both)
 
 
 def test_points_of_one_number_are_told_apart(monkeypatch):
     monkeypatch.setattr(
-        trimmed_surface, "_hash_points", lambda points: np.full(len(points), 7, np.uint64)
+        trimmed_surface, "hash_points", lambda points: np.full(len(points), 7, np.uint64)
     )
     points = np.concatenate([REPEATED, [[1.0, 2.0, 3.0]]])
     assert equal_rows(points, REPEATED[[2, 0, 3, 1]]).tolist() == [1, 3, 0, 2, -1]

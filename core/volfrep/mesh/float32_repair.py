@@ -232,7 +232,7 @@ def slivers(mesh: TriangleMesh, tolerance: float) -> Ints:
     return _slivers(mesh.vertices, mesh.triangles, tolerance)
 
 
-def _slivers(points: NDArray[np.float64], triangles: NDArray[np.int32], tolerance: float) -> Ints:
+def _slivers(points: NDArray[np.float64], triangles: NDArray[Any], tolerance: float) -> Ints:
     columns = points.T
 
     def block(start: int) -> Ints:
@@ -244,9 +244,7 @@ def _slivers(points: NDArray[np.float64], triangles: NDArray[np.int32], toleranc
     return np.concatenate([np.zeros(0, np.int64), *found])
 
 
-def _slivers_in(
-    columns: NDArray[np.float64], triangles: NDArray[np.int32], tolerance: float
-) -> Ints:
+def _slivers_in(columns: NDArray[np.float64], triangles: NDArray[Any], tolerance: float) -> Ints:
     corners = [np.ascontiguousarray(triangles[:, k]) for k in range(3)]
     sides: list[list[NDArray[np.float64]]] = [[], [], []]
     for column in columns:
@@ -439,13 +437,18 @@ def _flip_slivers(
     points: NDArray[np.float64], triangles: Ints, tolerance: float
 ) -> tuple[Ints, int]:
     """Slivers given away to the triangle beyond their longest edge."""
+    thin = vertices_of(_slivers(points, triangles, NEARLY * tolerance), len(triangles))
+    # Slivers are few: the triangles about their corners tell which edges there are.
+    rows = np.flatnonzero(touching(vertices_of(triangles[thin], len(points)), triangles))
+    used, local = numbered(triangles[rows], len(points))
+    some = points[used]
 
     def gain(ends: Ints, corners: Ints) -> NDArray[np.float64]:
         a, b, c, d = (
-            points[ends[:, 0]],
-            points[ends[:, 1]],
-            points[corners[:, 0]],
-            points[corners[:, 1]],
+            some[ends[:, 0]],
+            some[ends[:, 1]],
+            some[corners[:, 0]],
+            some[corners[:, 1]],
         )
         old, new = (
             np.minimum(*(remesh.heights(np.stack(corners, axis=1)) for corners in pair))
@@ -454,8 +457,11 @@ def _flip_slivers(
         wanted: NDArray[np.float64] = np.where(old < tolerance, new - 1.5 * old, -1.0)
         return wanted
 
-    thin = remesh.heights(corners_at(points, triangles)) < NEARLY * tolerance
-    return remesh.flip(points, triangles, gain, _none, thin)
+    local, flipped = remesh.flip(some, local, gain, _none, thin[rows])
+    if flipped:
+        triangles = triangles.copy()
+        triangles[rows] = used[local]
+    return triangles, flipped
 
 
 def _close_slivers(points: NDArray[np.float64], triangles: Ints, tolerance: float) -> _Collapsed:
@@ -466,7 +472,7 @@ def _close_slivers(points: NDArray[np.float64], triangles: Ints, tolerance: floa
     """
     count = len(points)
     rank = open_vertices(triangles, count).astype(np.int64)
-    thin = triangles[_slivers(points, triangles.astype(np.int32), tolerance)]
+    thin = triangles[_slivers(points, triangles, tolerance)]
     corners, row = points[thin], np.arange(len(thin))
     opposite = np.linalg.norm(np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1), axis=2)
     middle = opposite.argmax(axis=1)

@@ -28,6 +28,7 @@ from ..util.progress import Monitor
 from ..util.types import Floats, Ints
 from .facet_grading import grade_facets
 from .fins import folded_facets, without_fins
+from .single_moves import without_faults
 from .stuffed_mesh import bodies_of, face_pairs, signed_volumes, stuffed_mesh
 
 #: A solver needs about 50 kB for each of these: more are not a job for tetrahedra.
@@ -157,6 +158,10 @@ class CannotFill(VolfrepError):
     """Gmsh does not manage a mesh."""
 
 
+class FaultyMesh(VolfrepError):
+    """A mesh is not closed, or has facets without an area."""
+
+
 def tetrahedra(mesh: TriangleMesh, monitor: Monitor | None = None) -> TetrahedralMesh:
     """Fill a closed mesh with tetrahedra: by Gmsh, or where that fails from a lattice of them.
 
@@ -201,7 +206,12 @@ def filled_by_gmsh(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrah
     while True:
         surface, moved = mend_surface(compact(mesh), monitor, tuple(places))
         surface = monitor.call(lambda: grade_facets(surface))  # noqa: B023
-        said, filled = _run_gmsh(program, surface, monitor)
+        try:
+            said, filled = _run_gmsh(program, surface, monitor)
+        except FaultyMesh as fault:
+            if not moved:
+                raise
+            raise _cannot_fill(f"mended it is no solid: {fault}") from fault
         place = _intersection(said)
         if filled is not None:
             break
@@ -276,7 +286,10 @@ def _run_gmsh(
     program: str, surface: TriangleMesh, monitor: Monitor
 ) -> tuple[str, TetrahedralMesh | None]:
     """What Gmsh says of a closed surface, and the tetrahedra where it fills it."""
-    brep = faceted_brep(surface)
+    try:
+        brep = faceted_brep(surface)
+    except VolfrepError as fault:
+        raise FaultyMesh(str(fault)) from fault
     patience = _patience(surface)
     for improved in (True, False):
         with tempfile.TemporaryDirectory() as name:
@@ -322,6 +335,7 @@ def mend_surface(
         if not wrong.any():
             # What folds in the end may still be filled, and needles surely are not.
             better = without_fins(better, folded_facets(better))
+            better = _one_by_one(better, tolerance.usual, TOUCHING * edge, monitor)
             best = better, tolerance.usual
             wrong = folded_facets(better)
             if wrong.sum() <= folded_before:
@@ -330,6 +344,19 @@ def mend_surface(
         near = NEAR * (done + 1) * edge
         tolerance = replace(tolerance, places=(*tolerance.places, place), reach=near)
     return best
+
+
+def _one_by_one(
+    mesh: TriangleMesh, tolerance: float, touching: float, monitor: Monitor
+) -> TriangleMesh:
+    """A mended mesh without the folds that are left, then without the needles, if none cross."""
+    for needle in (0.0, NEEDLE):
+        better = without_faults(mesh, tolerance, needle, monitor)
+        if better is not mesh:
+            every = np.ones(len(better.triangles), bool)
+            wrong = monitor.call(lambda: crossing_triangles(better, every, touching))  # noqa: B023
+            mesh = mesh if wrong.any() else better
+    return mesh
 
 
 def nodes_on(filled: TetrahedralMesh, surface: TriangleMesh) -> Ints:

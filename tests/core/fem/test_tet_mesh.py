@@ -250,6 +250,20 @@ def test_what_gmsh_finds_to_intersect_is_mended_less(monkeypatch):
 
 
 @needs_gmsh
+def test_what_is_no_solid_once_mended_is_not_given_to_gmsh(monkeypatch):
+    """The lattice takes the mesh as it was; one that is open from the start is refused."""
+    box = samples.box((10.0, 8.0, 2.0))
+    opened = TriangleMesh(box.vertices, box.triangles[1:])
+    monkeypatch.setattr(tet_mesh, "mend_surface", lambda *_: (opened, 0.01))
+    monkeypatch.setattr(tet_mesh, "LATTICE_TETRAHEDRA", (2000,))
+    monkeypatch.setattr(tet_mesh, "MOST_GROWN", 0.2)
+    monkeypatch.setattr(tet_mesh, "_median_edge", lambda _: 0.0)
+    with pytest.raises(CannotFill, match=r"mended it is no solid: .*closed"):
+        filled_by_gmsh(box)
+    assert tetrahedra(box).lattice > 0.0
+
+
+@needs_gmsh
 def test_a_lip_that_all_but_lies_on_the_surface_is_filled():
     """A pyramid upon a block, its apex beyond the foot: below it is a gap of 0.05 degrees."""
     height = np.tan(np.radians(0.05))
@@ -279,6 +293,7 @@ def test_what_would_cross_is_not_mended(monkeypatch):
     monkeypatch.setattr(tet_mesh, "mend_bad_facets", lambda *_: better)
     with monkeypatch.context() as one:
         one.setattr(tet_mesh, "without_fins", lambda mesh, _: mesh)
+        one.setattr(tet_mesh, "_one_by_one", lambda mesh, *_: mesh)
         one.setattr(
             tet_mesh, "folded_facets", lambda some: np.full(len(some.triangles), some is better)
         )

@@ -4,14 +4,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from ..util.types import Bools, Floats, Ints
 from .depth import Depth
 from .dual_contouring import Facets, facets, place_vertices
-from .octree import Crossings, Leaves, cross, find, name, named
-from .sampled_depth import COARSEST, DepthField
+from .octree import (
+    CrossedEdges,
+    Crossings,
+    Leaves,
+    crossed_anew,
+    crossed_edges,
+    find,
+    patches,
+)
+from .sampled_depth import DepthField
 
 #: Cubes are halved where a facet strays by more than this, in units of the thickness.
 DEVIATION = 0.02
@@ -27,8 +36,6 @@ ROUNDS = 16
 #: No cubes are halved any more when they or the crossed edges would be more than this: a minute.
 MOST_LEAVES = 2_000_000
 MOST_EDGES = 1_500_000
-#: The facets round a cube depend on what is within so many cubes of the coarsest size.
-REACH = 3
 #: A polygon is flat when its corners lie off its plane by less than this part of what may stray.
 FLAT = 0.5
 #: Where facets that are not flat are looked at, in shares of their corners.
@@ -51,31 +58,27 @@ class OffsetSurface:
 def find_offset_surface(field: DepthField) -> OffsetSurface:
     """The surface at exact depth, as near as cubes of a sixteenth of the coarsest size bring it.
 
-    After the first round only the neighbourhood of the cubes that were halved is contoured and
-    looked at again.
+    After the first round only what has changed with the cubes that were halved is made and looked
+    at again.
 
     Returns:
         The wall, without crossings and facets where nothing is so deep.
     """
     monitor = field.depth.monitor
     leaves, negative = _refine_leaves(field, field.coarsest_leaves(), 0)
-    known = _Known(np.zeros(0, np.int64), *np.zeros((3, 0, 3)))
+    wall = _Wall.of(field, leaves, negative)
     changed = np.ones(len(leaves.size), bool)
     for done in range(ROUNDS):
         monitor.tick(0.2 + 0.6 * done / ROUNDS)
-        near, known, deviates = _find_negative(field, leaves, negative, changed, known)
-        halve = np.zeros(len(leaves.size), bool)
-        halve[near] = deviates
-        enough = done == ROUNDS - 1 or len(known.names) + 4 * halve.sum() > MOST_EDGES
+        halve = _find_deviating(field, wall, changed)
+        enough = done == ROUNDS - 1 or len(wall.new) + 4 * halve.sum() > MOST_EDGES
         if enough or not halve.any():
             break
-        stay = leaves.chosen(~halve)
-        halves, below = _refine_leaves(field, leaves.chosen(halve).halved(), len(stay.size))
-        leaves = stay.joined(halves)
-        negative = np.concatenate([negative[~halve], below])
-        changed = np.arange(len(leaves.size)) >= len(stay.size)
-    crossings = monitor.call(lambda: cross(leaves, negative))
-    return monitor.call(lambda: _contour(field, leaves, crossings, known))
+        stay = wall.leaves.chosen(~halve)
+        halves, below = _refine_leaves(field, wall.leaves.chosen(halve).halved(), len(stay.size))
+        wall = wall.with_halves(field, halve, stay.joined(halves), below)
+        changed = np.arange(len(wall.leaves.size)) >= len(stay.size)
+    return monitor.call(lambda: _contour(field, wall, np.ones(len(wall.leaves.size), bool)))
 
 
 def _refine_leaves(field: DepthField, leaves: Leaves, others: int) -> tuple[Leaves, Bools]:
@@ -98,89 +101,101 @@ def _refine_leaves(field: DepthField, leaves: Leaves, others: int) -> tuple[Leav
 
 
 @dataclass(frozen=True, eq=False)
-class _Known:
-    """What is known of crossed edges: names in ascending order, where they are crossed, planes."""
+class _Wall:
+    """What is known of the wall in some leaves.
 
-    names: Ints
+    Attributes:
+        leaves: l of them.
+        edges: n crossed ones, by rising names.
+        leaf: (n, 4) the leaves round them.
+        points: (n, 3) where they are crossed, mm.
+        anchor: (n, 3) a point of the wall's plane there.
+        normal: (n, 3) its normal.
+        new: (n,) whether they were not known the round before.
+        vertices: (l, 3) the vertices of leaves with one patch, kept as they are made; until then
+            not a number.
+    """
+
+    leaves: Leaves
+    edges: CrossedEdges
+    leaf: Ints
     points: Floats
     anchor: Floats
     normal: Floats
+    new: Bools
+    vertices: Floats
+
+    @staticmethod
+    def of(field: DepthField, leaves: Leaves, negative: Bools) -> _Wall:
+        """Of leaves with (l, 8) which of their corners lie inside the inner wall."""
+        edges, leaf = field.depth.monitor.call(lambda: crossed_edges(leaves, negative))
+        new = np.ones(len(leaf), bool)
+        nowhere = np.full((len(leaves.size), 3), np.nan)
+        return _Wall(leaves, edges, leaf, *_planes(field, edges), new, nowhere)
+
+    def with_halves(
+        self, field: DepthField, halved: Bools, leaves: Leaves, negative: Bools
+    ) -> _Wall:
+        """Of the leaves once (l,) some were halved, with the signs at the corners of the halves."""
+        number = np.where(halved, -1, np.cumsum(~halved) - 1)
+        anew = partial(crossed_anew, self.edges, self.leaf, number, leaves, negative)
+        edges, leaf = field.depth.monitor.call(anew)
+        row = find(self.edges.names, edges.names)
+        new = row < 0
+        vertices = np.full((len(leaves.size), 3), np.nan)
+        vertices[: int((~halved).sum())] = self.vertices[~halved]
+        vertices[leaf[new]] = np.nan
+        points, anchor, normal = self.points[row], self.anchor[row], self.normal[row]
+        points[new], anchor[new], normal[new] = _planes(field, edges.chosen(new))
+        return _Wall(leaves, edges, leaf, points, anchor, normal, new, vertices)
 
 
-def _find_negative(
-    field: DepthField, leaves: Leaves, negative: Bools, changed: Bools, known: _Known
-) -> tuple[Bools, _Known, Bools]:
-    """Contour round the changed leaves.
+def _planes(field: DepthField, edges: CrossedEdges) -> tuple[Floats, Floats, Floats]:
+    """Where edges are crossed if the depth is linear along them, and the wall's planes there."""
+    a, b = field.sample(edges.low)[0], field.sample(edges.high)[0]
+    points = field.point(edges.low + (a / (a - b))[:, None] * (edges.high - edges.low))
+    return points, *field.depth.planes(points)
 
-    Returns:
-        (n,) the leaves that were looked at, what is known now, and which of the former are to be
-        halved: facets of theirs stray, or several sheets of the wall are in them.
+
+def _find_deviating(field: DepthField, wall: _Wall, changed: Bools) -> Bools:
+    """(l,) leaves to be halved: facets of theirs stray, or several sheets of the wall are in them.
+
+    Only what has changed is looked at: patches in changed leaves or with new edges.
     """
     depth = field.depth
-    near = depth.monitor.call(lambda: _near(leaves, changed))
-    part = leaves.chosen(near)
-    crossings = depth.monitor.call(lambda: cross(part, negative[near], whole=False))
-    new = find(known.names, crossings.edges.names) < 0
-    known = _with_new(known, field, crossings, new)
-    surface = depth.monitor.call(lambda: _contour(field, part, crossings, known))
-    leaf = crossings.leaf_of_patch
-    small = part.size[leaf] * field.unit < SMALL * depth.thickness
+    fresh = changed.copy()
     # A halved leaf beside smaller ones may have none but known edges.
-    fresh = changed[near][leaf]
-    fresh[crossings.patch[new]] = True
-    deviates = _deviations(surface, fresh, depth) > np.where(small, DEVIATION_SMALL, DEVIATION)
-    halve = np.bincount(leaf, minlength=len(part.size)) > 1
-    halve[leaf[deviates]] = True
-    return near, known, halve & (part.size > FINEST)
+    fresh[wall.leaf[wall.new]] = True
+    surface = depth.monitor.call(lambda: _contour(field, wall, fresh))
+    leaf = surface.crossings.leaf_of_patch
+    small = wall.leaves.size[leaf] * field.unit < SMALL * depth.thickness
+    deviates = _deviations(surface, fresh[leaf], depth)
+    halve = fresh & (np.bincount(leaf, minlength=len(fresh)) > 1)
+    halve[leaf[deviates > np.where(small, DEVIATION_SMALL, DEVIATION)]] = True
+    return np.asarray(halve & (wall.leaves.size > FINEST))
 
 
-def _near(leaves: Leaves, changed: Bools) -> Bools:
-    """(n,) the leaves in reach of changed ones: so many cubes of their size, or of the coarsest."""
-    size = np.maximum(leaves.size, COARSEST)
-    result = np.zeros(len(size), bool)
-    sizes = np.unique(size)
-    for own in np.unique(size[changed]):
-        around = name(leaves.corner[changed & (size == own)] // own)
-        for one_on in name(np.eye(3, dtype=np.int64)):
-            around = np.unique(around[:, None] + one_on * np.arange(-REACH, REACH + 1))
-        for other in sizes:
-            rows = np.flatnonzero(size == other)
-            within = around
-            if other > own:
-                within = np.unique(name(named(around) // (other // own)))
-            cube = name(leaves.corner[rows] // max(own, other))
-            result[rows] |= find(within, cube) >= 0
-    return result
-
-
-def _with_new(known: _Known, field: DepthField, crossings: Crossings, new: Bools) -> _Known:
-    """With the new edges, crossed where they are if the depth is linear along them."""
-    low, high = crossings.edges.low[new], crossings.edges.high[new]
-    a, b = field.sample(low)[0], field.sample(high)[0]
-    points = field.point(low + (a / (a - b))[:, None] * (high - low))
-    anchor, normal = field.depth.planes(points)
-    names = crossings.edges.names[new]
-    order = np.argsort(names)
-    place = np.searchsorted(known.names, names[order])
-    return _Known(
-        np.insert(known.names, place, names[order]),
-        np.insert(known.points, place, points[order], axis=0),
-        np.insert(known.anchor, place, anchor[order], axis=0),
-        np.insert(known.normal, place, normal[order], axis=0),
+def _contour(field: DepthField, wall: _Wall, wanted: Bools) -> OffsetSurface:
+    """The facets at the patches of some leaves (l,), and all patches of the leaves beside."""
+    near = wanted[wall.leaf].any(axis=1)
+    beside = np.zeros_like(wanted)
+    beside[wall.leaf[near]] = True
+    some = np.flatnonzero(beside[wall.leaf].any(axis=1))
+    crossings = patches(wall.leaves, wall.edges.chosen(some), wall.leaf[some])
+    points, anchor, normal = wall.points[some], wall.anchor[some], wall.normal[some]
+    leaf, alone = crossings.leaf_of_patch, crossings.alone
+    vertices = wall.vertices[leaf]
+    made = beside[leaf] & (np.isnan(vertices[:, 0]) | ~alone)
+    low = wall.leaves.corner[leaf[made]]
+    high = low + wall.leaves.size[leaf[made]][:, None]
+    vertices[made] = place_vertices(
+        crossings, made, points, anchor, normal, field.point(low), field.point(high)
     )
-
-
-def _contour(
-    field: DepthField, leaves: Leaves, crossings: Crossings, known: _Known
-) -> OffsetSurface:
-    rows = find(known.names, crossings.edges.names)
-    points, anchor, normal = known.points[rows], known.anchor[rows], known.normal[rows]
-    low = leaves.corner[crossings.leaf_of_patch]
-    high = low + leaves.size[crossings.leaf_of_patch][:, None]
-    vertices = place_vertices(
-        crossings, points, anchor, normal, field.point(low), field.point(high)
-    )
-    return OffsetSurface(crossings, facets(crossings, vertices, anchor, normal))
+    kept = made & alone
+    wall.vertices[leaf[kept]] = vertices[kept]
+    rows = np.flatnonzero(near[some])
+    crossings = crossings.chosen(rows)
+    return OffsetSurface(crossings, facets(crossings, vertices, anchor[rows], normal[rows]))
 
 
 def _deviations(surface: OffsetSurface, fresh: Bools, depth: Depth) -> Floats:

@@ -30,28 +30,37 @@ MARGIN = 0.01
 
 
 def place_vertices(
-    crossings: Crossings, points: Floats, anchor: Floats, normal: Floats, low: Floats, high: Floats
+    crossings: Crossings,
+    wanted: Bools,
+    points: Floats,
+    anchor: Floats,
+    normal: Floats,
+    low: Floats,
+    high: Floats,
 ) -> Floats:
-    """The point of each patch that lies best on the planes of its edges, inside its cube.
+    """The points of some patches that lie best on the planes of their edges, inside their cubes.
 
     Args:
         crossings: n edges, p patches.
+        wanted: (p,) which k of the patches.
         points: (n, 3) where the edges are crossed.
         anchor: (n, 3) a point of each edge's plane.
         normal: (n, 3) its normal.
-        low: (p, 3) lowest corners of the patches' cubes.
-        high: (p, 3) highest corners.
+        low: (k, 3) lowest corners of the wanted patches' cubes.
+        high: (k, 3) highest corners.
 
     Returns:
-        (p, 3) points.
+        (k, 3) points.
     """
     patches = len(low)
     # An edge in the middle of a leaf's face has two quadrants there and counts once.
-    edge, quadrant = np.nonzero(crossings.leaf != np.roll(crossings.leaf, -1, axis=1))
-    planes = _Planes(crossings.patch[edge, quadrant], anchor[edge], normal[edge])
+    several = crossings.leaf != np.roll(crossings.leaf, -1, axis=1)
+    edge, quadrant = np.nonzero(several & wanted[crossings.patch])
+    number = np.cumsum(wanted) - 1
+    planes = _Planes(number[crossings.patch[edge, quadrant]], anchor[edge], normal[edge])
     count = np.bincount(planes.patch, minlength=patches)[:, None]
     # Of several sheets in one cube the best points could pass each other, the middles hardly.
-    alone = (np.bincount(crossings.leaf_of_patch) == 1)[crossings.leaf_of_patch]
+    alone = crossings.alone[wanted]
     middle = planes.totals(np.where(alone[planes.patch, None], planes.anchor, points[edge])) / count
     mean = planes.totals(planes.normal) / count
     bent = np.linalg.norm(mean, axis=1) < FLAT

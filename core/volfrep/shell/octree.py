@@ -97,6 +97,15 @@ class CrossedEdges:
         """Some of them."""
         return CrossedEdges(self.low[which], self.axis[which], self.size[which], self.rising[which])
 
+    def joined(self, more: CrossedEdges) -> CrossedEdges:
+        """With others after them."""
+        return CrossedEdges(
+            np.concatenate([self.low, more.low]),
+            np.concatenate([self.axis, more.axis]),
+            np.concatenate([self.size, more.size]),
+            np.concatenate([self.rising, more.rising]),
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class Crossings:
@@ -119,6 +128,18 @@ class Crossings:
     segment: Ints
     leaf_of_patch: Ints
     patches_of_segment: Ints
+
+    def chosen(self, which: Ints) -> Crossings:
+        """Some of the edges, with all patches."""
+        return Crossings(
+            self.edges.chosen(which), self.leaf[which], self.patch[which], self.segment[which],
+            self.leaf_of_patch, self.patches_of_segment,
+        )  # fmt: skip
+
+    @property
+    def alone(self) -> Bools:
+        """(p,) which patches are the only ones in their leaves."""
+        return np.asarray((np.bincount(self.leaf_of_patch) == 1)[self.leaf_of_patch])
 
     def doubled(self) -> Bools:
         """(s,) whether another segment joins the same two patches.
@@ -150,24 +171,70 @@ def find(names: Ints, wanted: Ints) -> Ints:
     return np.where(names[place] == wanted, place, -1)
 
 
-def cross(leaves: Leaves, negative: Bools, *, whole: bool = True) -> Crossings:
+def cross(leaves: Leaves, negative: Bools) -> Crossings:
     """The edges between negative corners and others, and the patches they bound.
 
     Args:
-        leaves: they fill the neighbourhood of every crossed edge, if they are the whole.
+        leaves: they fill the neighbourhood of every crossed edge.
         negative: (n, 8) sign at the corners of each leaf, the same wherever leaves meet.
-        whole: otherwise edges are left out where leaves are missing, and the patches there are
-            incomplete.
 
     Raises:
         RuntimeError: the surface reaches a place without leaves.
     """
-    edges = _minimal_edges(leaves, negative)
-    leaf = _leaves_round(leaves, edges)
-    found = (leaf >= 0).all(axis=1)
-    if whole and not found.all():
-        raise RuntimeError("the wall reaches a place that was not looked at")
-    edges, leaf = edges.chosen(found), leaf[found]
+    return patches(leaves, *crossed_edges(leaves, negative))
+
+
+def crossed_edges(leaves: Leaves, negative: Bools) -> tuple[CrossedEdges, Ints]:
+    """The minimal edges that are crossed, by rising names, and (n, 4) the leaves round them.
+
+    Args:
+        leaves: as of `cross`.
+        negative: as there.
+
+    Raises:
+        RuntimeError: as there.
+    """
+    edges = _minimal(_edges_of(leaves, negative))
+    return edges, _leaves_round(leaves, edges)
+
+
+def crossed_anew(
+    edges: CrossedEdges, leaf: Ints, number: Ints, leaves: Leaves, negative: Bools
+) -> tuple[CrossedEdges, Ints]:
+    """As `crossed_edges`, once some of the leaves have been halved.
+
+    Where none of these lies round an edge, everything about it is as it was. An edge of one of the
+    halves that smaller leaves divide has parts that the halved leaf lay round.
+
+    Args:
+        edges: the crossed ones of the leaves of before.
+        leaf: (n, 4) these leaves, round them.
+        number: (k,) what these are called now; -1: halved.
+        leaves: of now, the halves last.
+        negative: (h, 8) sign at the corners of these h last ones.
+
+    Raises:
+        RuntimeError: as of `cross`.
+    """
+    leaf = number[leaf]
+    same = (leaf >= 0).all(axis=1)
+    halves = leaves.chosen(slice(len(leaves.size) - len(negative), None))
+    anew = _minimal(edges.chosen(~same).joined(_edges_of(halves, negative)))
+    edges = edges.chosen(same).joined(anew)
+    leaf = np.concatenate([leaf[same], _leaves_round(leaves, anew)])
+    order = np.argsort(edges.names)
+    return edges.chosen(order), leaf[order]
+
+
+def patches(leaves: Leaves, edges: CrossedEdges, leaf: Ints) -> Crossings:
+    """The patches that crossed edges bound.
+
+    Args:
+        leaves: as of `cross`.
+        edges: some of the minimal ones that are crossed. Of a leaf round which not all of its own
+            are given the patches are incomplete.
+        leaf: (n, 4) the leaves round them.
+    """
     first, second, segment = _segments(leaves, edges, leaf)
     patch = _join(leaf, first, second)
     of_patch = np.zeros(int(patch.max(initial=-1)) + 1, np.int64)
@@ -177,11 +244,8 @@ def cross(leaves: Leaves, negative: Bools, *, whole: bool = True) -> Crossings:
     return Crossings(edges, leaf, patch, segment, of_patch, pairs)
 
 
-def _minimal_edges(leaves: Leaves, negative: Bools) -> CrossedEdges:
-    """The crossed edges of leaves that no smaller leaf divides.
-
-    Where a smaller leaf divides a crossed edge, one of its own edges there is crossed.
-    """
+def _edges_of(leaves: Leaves, negative: Bools) -> CrossedEdges:
+    """The crossed edges of leaves, as often as these have them."""
     mixed = negative.any(axis=1) & ~negative.all(axis=1)
     leaves, negative = leaves.chosen(mixed), negative[mixed]
     nodes = leaves.nodes()
@@ -191,7 +255,14 @@ def _minimal_edges(leaves: Leaves, negative: Bools) -> CrossedEdges:
             rows = np.flatnonzero(negative[:, start] != negative[:, start + (4 >> axis)])
             axes = np.full(len(rows), axis)
             parts.append((nodes[rows, start], axes, leaves.size[rows], negative[rows, start]))
-    edges = CrossedEdges(*(np.concatenate(values) for values in zip(*parts, strict=True)))
+    return CrossedEdges(*(np.concatenate(values) for values in zip(*parts, strict=True)))
+
+
+def _minimal(edges: CrossedEdges) -> CrossedEdges:
+    """Each crossed edge that no smaller leaf divides once, by rising names.
+
+    Where a smaller leaf divides a crossed edge, one of its own edges there is crossed.
+    """
     names, once = np.unique(edges.names, return_index=True)
     edges = edges.chosen(once)
     return edges.chosen(find(_find_divided(edges), names) < 0)
@@ -214,7 +285,7 @@ def _find_divided(edges: CrossedEdges) -> Ints:
 
 
 def _leaves_round(leaves: Leaves, edges: CrossedEdges) -> Ints:
-    """(n, 4) the leaf in each quadrant round the edges; -1: none."""
+    """(n, 4) the leaf in each quadrant round the edges; a `RuntimeError` where there is none."""
     # In the order of interleaved bits the cubes of a leaf follow each other.
     start = interleaved(leaves.corner)
     order = np.argsort(start)
@@ -228,7 +299,9 @@ def _leaves_round(leaves: Leaves, edges: CrossedEdges) -> Ints:
         leaf = order[np.searchsorted(start, interleaved(cube), "right") - 1]
         beside = cube - leaves.corner[leaf]
         inside = ((beside >= 0) & (beside < leaves.size[leaf][:, None])).all(axis=1)
-        result[:, quadrant] = np.where(inside, leaf, -1)
+        if not inside.all():
+            raise RuntimeError("the wall reaches a place that was not looked at")
+        result[:, quadrant] = leaf
     return result
 
 

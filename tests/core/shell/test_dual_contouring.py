@@ -36,7 +36,8 @@ def contoured(cubes, value, plane):
     anchor, normal = plane(points)
     corner = cubes.corner[crossings.leaf_of_patch].astype(float)
     top = corner + cubes.size[crossings.leaf_of_patch][:, None]
-    vertices = contour.place_vertices(crossings, points, anchor, normal, corner, top)
+    everywhere = np.ones(len(corner), bool)
+    vertices = contour.place_vertices(crossings, everywhere, points, anchor, normal, corner, top)
     made = contour.facets(crossings, vertices, anchor, normal)
     return crossings, points, (corner, top), made
 
@@ -100,6 +101,38 @@ def test_a_ball_is_closed_and_turned_outward(halve):
     vertices = made.mesh.vertices
     assert ((vertices > low) & (vertices < high)).all()
     assert np.abs(ball_value(vertices)).max() < 0.2 * SIZE
+
+
+def test_the_vertices_of_some_patches_are_those_that_all_would_have():
+    crossings, points, (low, high), made = contoured(leaves(near_a_corner), ball_value, ball_plane)
+    some = low[:, 0] > MIDDLE[0]
+    assert 0 < some.sum() < len(some)
+    found = contour.place_vertices(crossings, some, points, *ball_plane(points), low[some], high[some])
+    np.testing.assert_array_equal(found, made.mesh.vertices[some])
+
+
+def test_once_cubes_are_halved_the_edges_crossed_are_those_of_all_cubes_looked_at_anew():
+    """Some of the halves are halved again, so that smaller ones divide their neighbours' edges."""
+
+    def value(nodes):
+        return ball_value(nodes / 2.0)
+
+    before = leaves(near_a_corner)
+    before = octree.Leaves(2 * before.corner, 2 * before.size)  # their eighths have whole middles
+    edges, leaf = octree.crossed_edges(before, value(before.nodes()) < 0)
+    halved = np.abs(value(before.corner + before.size[:, None] / 2)) < SIZE
+    halved &= before.corner[:, 1] / 2 > MIDDLE[1]
+    halves = before.chosen(halved).halved()
+    again = halves.corner[:, 2] / 2 > MIDDLE[2]
+    halves = halves.chosen(~again).joined(halves.chosen(again).halved())
+    after = before.chosen(~halved).joined(halves)
+    number = np.where(halved, -1, np.cumsum(~halved) - 1)
+    found, found_round = octree.crossed_anew(edges, leaf, number, after, value(halves.nodes()) < 0)
+    wanted, leaves_round = octree.crossed_edges(after, value(after.nodes()) < 0)
+    assert len(np.unique(wanted.size)) == 4
+    for part in ("low", "axis", "size", "rising"):
+        np.testing.assert_array_equal(getattr(found, part), getattr(wanted, part))
+    np.testing.assert_array_equal(found_round, leaves_round)
 
 
 def test_facets_know_the_edge_they_lie_round():

@@ -21,6 +21,9 @@ from ..util.types import Bools, Floats, Ints
 PAIRS_PER_STEP = 500_000
 #: The finest grid has no more bins along the largest triangle: their names have 21 bits an axis.
 MOST_BINS = 1 << 16
+#: Of larger triangles than those of the two finest grids the bins are finer so many times twofold:
+#: most are needles or lie along an axis, and their boxes are empty but for a little.
+FINER_BINS = 2
 #: A box begins in a bin along x (1), y (2) and z (4).
 ALONG_ALL = 7
 #: The most cells along the longest side of the grid by which triangles near others are picked.
@@ -103,7 +106,7 @@ def close_pairs(corners: Floats, among: Bools, margin: float = 0.0) -> Iterator[
     """Pairs of triangles whose boxes overlap, at least one of them chosen, each once.
 
     They meet in the bins of several grids, each twice as coarse as the one before: every triangle
-    waits in the bins of its own size, and visits those and all coarser ones.
+    waits in the bins of its own size (`FINER_BINS`), and visits those and all coarser ones.
 
     Args:
         corners: (m, 3, 3) of the triangles, mm.
@@ -126,7 +129,7 @@ def portions_of_pairs(
     origin = low.min(axis=0)
     for grid in np.unique(level):
         waiting, smaller = np.flatnonzero(level == grid), np.flatnonzero(level < grid)
-        cell = size * 2.0**grid
+        cell = size * 2.0 ** (grid if grid < FINER_BINS else grid - FINER_BINS)
         # Chosen ones visit all others; these visit the chosen ones that are larger than they.
         chosen = np.concatenate([waiting[among[waiting]], smaller[among[smaller]]])
         for visiting, visited in ((np.sort(chosen), waiting),

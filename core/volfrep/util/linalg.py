@@ -8,6 +8,7 @@ those of 3 x 3 matrices; what a file's coordinates come from is computed here in
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -34,10 +35,15 @@ def cross_columns(a: list[Floats], b: list[Floats]) -> list[Floats]:
     return [a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))]
 
 
-def dot_columns(a: list[Floats], b: list[Floats]) -> Floats:
-    """Products of vectors as of `cross_columns`."""
+def dot_columns(a: Sequence[Floats] | Floats, b: Sequence[Floats] | Floats) -> Floats:
+    """Products of vectors as of `cross_columns`, or of (3, n)."""
     product: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
     return product
+
+
+def less_columns(a: Iterable[Floats], b: Iterable[Floats]) -> list[Floats]:
+    """Differences of vectors as of `cross_columns`."""
+    return [one - other for one, other in zip(a, b, strict=True)]
 
 
 def squares(vectors: Floats) -> Floats:

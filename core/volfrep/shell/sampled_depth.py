@@ -142,7 +142,7 @@ class DepthField:
         while top > 1:
             middle = (cube + top // 2) * COARSEST
             size = top * COARSEST * self.unit
-            value = self._values(middle)[0]
+            value = self.sample(middle)[0]  # the middles are nodes of smaller cubes
             reach = 0.5 * np.sqrt(3.0) * size * depth.steepest
             # By so much the distance may be too long (`SurfaceIndex.near`).
             error = np.where(self._inside(middle), depth.error, depth.index.spacing)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.proximity import sample_triangles
+from ..spatial.proximity import edge_lengths, sample_triangles
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .octree import find, name
@@ -167,13 +167,13 @@ def _cut(corners: Floats, owner: Ints, longest: float) -> tuple[Floats, Ints]:
     """Triangles halved at their longest edges until none is longer."""
     done = []
     for _ in range(HALVINGS):
-        edge = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
-        long = edge.max(axis=1) > longest
+        edge = edge_lengths(corners)
+        long = edge.max(axis=0) > longest
         done.append((corners[~long], owner[~long]))
         if not long.any():
             break
-        turn = (edge[long].argmax(axis=1)[:, None] + np.arange(3)) % 3
-        a, b, c = np.take_along_axis(corners[long], turn[:, :, None], axis=1).transpose(1, 0, 2)
+        turn = (edge[:, long].argmax(axis=0)[:, None] + np.arange(3)) % 3
+        a, b, c = corners[np.flatnonzero(long)[:, None], turn].transpose(1, 0, 2)
         middle = 0.5 * (a + b)
         corners = np.concatenate([np.stack([a, middle, c], 1), np.stack([middle, b, c], 1)])
         owner = np.tile(owner[long], 2)

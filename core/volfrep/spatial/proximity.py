@@ -18,10 +18,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.remesh import normals, unit_normals
+from ..mesh.remesh import unit_normals
 from ..mesh.triangle_mesh import TriangleMesh
 from ..util.errors import VolfrepError
-from ..util.linalg import dot_columns, less_columns, squares
+from ..util.linalg import cross_columns, dot_columns, less_columns, squares
 from ..util.parallel import ParallelBackend, SharedArray
 from ..util.ragged import spread
 from ..util.threads import in_threads, threads
@@ -586,25 +586,36 @@ def sample_triangles(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
 
 def _sample(corners: Floats, spacing: float) -> tuple[Floats, Ints]:
     """As `sample_triangles`, on one thread."""
-    lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
-    longest = lengths.argmax(axis=1)
-    turn = (longest[:, None] + np.arange(3)) % 3
-    corners = np.take_along_axis(corners, turn[:, :, None], axis=1)
-    base = lengths.max(axis=1)
-    normal = normals(corners)
-    height = np.linalg.norm(normal, axis=1) / np.maximum(base, 1e-300)
+    # A column for every coordinate: numpy takes rows of three slowly.
+    length = edge_lengths(corners)
+    turn = (length.argmax(axis=0)[:, None] + np.arange(3)) % 3
+    corners = corners[np.arange(len(corners))[:, None], turn]
+    columns = np.ascontiguousarray(corners.reshape(-1, 9).T)
+    start, side, other = columns[:3], columns[3:6] - columns[:3], columns[6:] - columns[:3]
+    base, normal = length.max(axis=0), cross_columns(side, other)
+    height = np.sqrt(dot_columns(normal, normal)) / np.maximum(base, 1e-300)
     # Both angles at the longest edge are acute: below every point of the triangle, towards that
     # edge, is a point of the next row. The steps make the farthest point 0.75 spacings away.
     rows = np.maximum(np.ceil(height / (0.53 * spacing)), 1).astype(np.int64)
-    columns = np.maximum(np.ceil(base / (1.06 * spacing)), 1)
+    most = np.maximum(np.ceil(base / (1.06 * spacing)), 1)
     owner, row = spread(rows)
     up = row / rows[owner]
-    across = np.maximum(np.ceil(columns[owner] * (1.0 - up)), 1).astype(np.int64)
-    line, column = spread(across)
+    across = np.maximum(np.ceil(most[owner] * (1.0 - up)), 1).astype(np.int64)
+    line, place = spread(across)
+    along = (place + 0.5) / across[line] * (1.0 - up)[line]
     up, owner = up[line], owner[line]
-    along = (column + 0.5) / across[line] * (1.0 - up)
-    a, b, c = corners[owner, 0], corners[owner, 1], corners[owner, 2]
-    return a + along[:, None] * (b - a) + up[:, None] * (c - a), owner
+    points = np.empty((len(owner), 3))
+    for k in range(3):
+        points[:, k] = start[k][owner] + along * side[k][owner] + up * other[k][owner]
+    return points, owner
+
+
+def edge_lengths(corners: Floats) -> Floats:
+    """(3, n) the lengths of the edges of triangles (n, 3, 3), from each corner to the next."""
+    columns = np.ascontiguousarray(corners.reshape(-1, 9).T)
+    at = columns[:3], columns[3:6], columns[6:]
+    sides = [less_columns(at[(k + 1) % 3], at[k]) for k in range(3)]
+    return np.sqrt(np.stack([dot_columns(side, side) for side in sides]))
 
 
 def sample_reentrant_edges(

@@ -30,7 +30,7 @@ def times(vectors: Floats, matrix: Floats) -> Floats:
     return np.asarray(np.einsum("...j,jk->...k", vectors, matrix))
 
 
-def cross_columns(a: list[Floats], b: list[Floats]) -> list[Floats]:
+def cross_columns(a: Sequence[Floats] | Floats, b: Sequence[Floats] | Floats) -> list[Floats]:
     """Cross products of vectors whose x, y and z are arrays each: faster than rows of three."""
     return [a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))]
 

@@ -7,7 +7,6 @@ import numpy as np
 
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.rays import column_crossings
-from ..util.linalg import along
 from ..util.types import Bools, Floats, Ints
 from .depth import Depth
 from .octree import CORNERS, Leaves, find, name, named
@@ -171,17 +170,29 @@ class DepthField:
 
     def _hide(self, leaves: Leaves, least: float) -> tuple[Bools, Bools]:
         value, gradient = self.sample(leaves.nodes().reshape(-1, 3))
-        value, gradient = value.reshape(-1, 8), gradient.reshape(-1, 8, 3)
+        # A column for every corner: numpy takes rows of a few slowly.
+        value = np.ascontiguousarray(value.reshape(-1, 8).T)
+        gradient = np.ascontiguousarray(gradient.reshape(-1, 24).T).reshape(8, 3, -1)
         size = self.unit * leaves.size
         result = np.zeros(len(size), bool)
         for start, end in LINES:
             way = CORNERS[end] - CORNERS[start]
-            a, b = value[:, start], value[:, end]
-            down, up = (size * along(gradient[:, node], way) for node in (start, end))
+            a, b = value[start], value[end]
+            down, up = (size * _along(gradient[node], way) for node in (start, end))
             between = (a >= 0) & (b >= 0) & (down < 0) & (up > 0)
             share = np.clip((b - up - a) / np.where(between, down - up, 1.0), 0.0, 1.0)
             result |= between & (a + share * down < -least)
-        return result, value < 0
+        return result, value.T < 0
+
+
+def _along(columns: Floats, way: Ints) -> Floats:
+    """(n,) how far vectors (3, n) go along a way of steps of 1, 0 or -1."""
+    steps = [column if step > 0 else -column
+             for column, step in zip(columns, way, strict=True) if step]  # fmt: skip
+    total = steps[0]
+    for step in steps[1:]:
+        total = total + step
+    return total
 
 
 def _parts(leaves: Leaves) -> list[Leaves]:

@@ -245,11 +245,11 @@ def _are_near(corners: Floats, strays: Floats, slopes: Floats) -> Bools:
     """
     result = np.ones(len(corners), bool)
     # What the corner k adds on the way along its edges, before it is weighed by both shares.
-    ways = [np.einsum("nkx,nkx->nk", slopes, np.roll(corners, -k, axis=1) - corners) for k in (1, 2)]
+    ways = [
+        np.einsum("nkx,nkx->nk", slopes, np.roll(corners, -k, axis=1) - corners) for k in (1, 2)
+    ]
     for shares in LOOK_AT:
         share = np.array(shares)
-        bend = 0.5 * sum(
-            ways[k - 1] @ (share * np.roll(share, -k)) for k in (1, 2)
-        )
+        bend = 0.5 * sum(ways[k - 1] @ (share * np.roll(share, -k)) for k in (1, 2))
         result &= np.abs(strays @ share + bend) + np.abs(bend) < DEVIATION
     return result

@@ -187,11 +187,9 @@ class DepthField:
 
 def _along(columns: Floats, way: Ints) -> Floats:
     """(n,) how far vectors (3, n) go along a way of steps of 1, 0 or -1."""
-    steps = [column if step > 0 else -column
-             for column, step in zip(columns, way, strict=True) if step]  # fmt: skip
-    total = steps[0]
-    for step in steps[1:]:
-        total = total + step
+    total: Floats = np.zeros(columns.shape[1])
+    for axis in np.flatnonzero(way):
+        total += way[axis] * columns[axis]
     return total
 
 

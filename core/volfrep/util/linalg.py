@@ -37,8 +37,7 @@ def cross_columns(a: Sequence[Floats] | Floats, b: Sequence[Floats] | Floats) ->
 
 def dot_columns(a: Sequence[Floats] | Floats, b: Sequence[Floats] | Floats) -> Floats:
     """Products of vectors as of `cross_columns`, or of (3, n)."""
-    product: Floats = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-    return product
+    return np.asarray(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
 
 
 def less_columns(a: Iterable[Floats], b: Iterable[Floats]) -> list[Floats]:

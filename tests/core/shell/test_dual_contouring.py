@@ -107,7 +107,9 @@ def test_the_vertices_of_some_patches_are_those_that_all_would_have():
     crossings, points, (low, high), made = contoured(leaves(near_a_corner), ball_value, ball_plane)
     some = low[:, 0] > MIDDLE[0]
     assert 0 < some.sum() < len(some)
-    found = contour.place_vertices(crossings, some, points, *ball_plane(points), low[some], high[some])
+    found = contour.place_vertices(
+        crossings, some, points, *ball_plane(points), low[some], high[some]
+    )
     np.testing.assert_array_equal(found, made.mesh.vertices[some])
 
 

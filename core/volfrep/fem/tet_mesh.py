@@ -81,9 +81,9 @@ MOST_GROWN = 0.05
 
 #: Gmsh orders the last two mid-edge nodes of a tetrahedron the other way round than solvers do.
 _SOLVER_ORDER = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]
-#: The corners of each face, and the middles of its edges.
 #: Edges in the order of their mid-edge nodes.
 _EDGES = np.array([[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]])
+#: The corners of each face, and the middles of its edges.
 _FACES = [[0, 1, 2, 4, 5, 6], [0, 1, 3, 4, 8, 7], [1, 2, 3, 5, 9, 8], [0, 2, 3, 6, 9, 7]]
 #: Delaunay (1): Gmsh's parallel HXT (10) fails on the needles that a Boolean leaves. Facets that
 #: meet at less than 0.1 degrees are a fault to Gmsh, if not told otherwise; where a strut grazes

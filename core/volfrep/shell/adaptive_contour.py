@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 
+from ..util.linalg import along
 from ..util.types import Bools, Floats, Ints
 from .depth import Depth
 from .dual_contouring import Facets, facets, place_vertices
@@ -250,6 +251,6 @@ def _are_near(corners: Floats, strays: Floats, slopes: Floats) -> Bools:
     ]
     for shares in LOOK_AT:
         share = np.array(shares)
-        bend = 0.5 * sum(ways[k - 1] @ (share * np.roll(share, -k)) for k in (1, 2))
-        result &= np.abs(strays @ share + bend) + np.abs(bend) < DEVIATION
+        bend = 0.5 * sum(along(ways[k - 1], share * np.roll(share, -k)) for k in (1, 2))
+        result &= np.abs(along(strays, share) + bend) + np.abs(bend) < DEVIATION
     return result

@@ -26,7 +26,7 @@ from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Floats, Ints
-from .facet_grading import grade_facets
+from .facet_grading import grade_facets, side_lengths
 from .fins import folded_facets, without_fins
 from .single_moves import without_faults
 from .stuffed_mesh import bodies_of, face_pairs, signed_volumes, stuffed_mesh
@@ -257,14 +257,13 @@ def _filled_from_lattice(
 
 
 def _median_edge(mesh: TriangleMesh) -> float:
-    corners = mesh.vertices[mesh.triangles]
-    return float(np.median(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)))
+    return float(np.median(side_lengths(mesh.vertices[mesh.triangles])))
 
 
 def _places(mesh: TriangleMesh, edge: float) -> Floats:
     """The vertices of a mesh, and places in those facets that are larger than an edge."""
     corners = mesh.vertices[mesh.triangles]
-    length = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    length = side_lengths(corners).max(axis=1)
     return np.concatenate([mesh.vertices, sample_triangles(corners[length > edge], edge)[0]])
 
 

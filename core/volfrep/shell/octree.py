@@ -171,8 +171,8 @@ def find(names: Ints, wanted: Ints) -> Ints:
     return np.where(names[place] == wanted, place, -1)
 
 
-def cross(leaves: Leaves, negative: Bools) -> Crossings:
-    """The edges between negative corners and others, and the patches they bound.
+def crossed_edges(leaves: Leaves, negative: Bools) -> tuple[CrossedEdges, Ints]:
+    """The minimal edges that are crossed, by rising names, and (n, 4) the leaves round them.
 
     Args:
         leaves: they fill the neighbourhood of every crossed edge.
@@ -180,19 +180,6 @@ def cross(leaves: Leaves, negative: Bools) -> Crossings:
 
     Raises:
         RuntimeError: the surface reaches a place without leaves.
-    """
-    return patches(leaves, *crossed_edges(leaves, negative))
-
-
-def crossed_edges(leaves: Leaves, negative: Bools) -> tuple[CrossedEdges, Ints]:
-    """The minimal edges that are crossed, by rising names, and (n, 4) the leaves round them.
-
-    Args:
-        leaves: as of `cross`.
-        negative: as there.
-
-    Raises:
-        RuntimeError: as there.
     """
     edges = _minimal(_edges_of(leaves, negative))
     return edges, _leaves_round(leaves, edges)
@@ -214,7 +201,7 @@ def crossed_anew(
         negative: (h, 8) sign at the corners of these h last ones.
 
     Raises:
-        RuntimeError: as of `cross`.
+        RuntimeError: as there.
     """
     leaf = number[leaf]
     same = (leaf >= 0).all(axis=1)
@@ -230,7 +217,7 @@ def patches(leaves: Leaves, edges: CrossedEdges, leaf: Ints) -> Crossings:
     """The patches that crossed edges bound.
 
     Args:
-        leaves: as of `cross`.
+        leaves: as of `crossed_edges`.
         edges: some of the minimal ones that are crossed. Of a leaf round which not all of its own
             are given the patches are incomplete.
         leaf: (n, 4) the leaves round them.

@@ -29,7 +29,8 @@ def contoured(cubes, value, plane):
         value: of points (..., 3): signed distances.
         plane: of points (n, 3) near the surface: points of its planes, and normals.
     """
-    crossings = octree.cross(cubes, value(cubes.nodes().astype(float)) < 0)
+    negative = value(cubes.nodes().astype(float)) < 0
+    crossings = octree.patches(cubes, *octree.crossed_edges(cubes, negative))
     low, high = (end.astype(float) for end in (crossings.edges.low, crossings.edges.high))
     a, b = value(low), value(high)
     points = low + (a / (a - b))[:, None] * (high - low)

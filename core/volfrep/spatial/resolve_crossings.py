@@ -4,7 +4,8 @@
 Where a wall grazes a strut two sheets of a surface enclose a wedge that is as thin as the steps of
 single precision, and where struts have next to no room between them facets fold over. Both have an
 edge at which the surface turns back, or one that is sharper than struts have it: only there, and in
-the triangles next to it, is looked.
+the triangles next to it, is looked. Of a wedge only where rounding may close it: a wall along
+struts that lie flat makes one on either side of each, and nearly all of them are open by far more.
 
 Parts of a surface may be looked at before they are joined (`look_at`); of the whole only the rest
 is looked at then (`Looks`).
@@ -65,6 +66,9 @@ FEWER = 0.1
 FAR, STUCK = 0.5, 0.95
 #: The surface turns back at an edge where the cosine between its normals is below this.
 TURNS_BACK = -0.9
+#: Rounding, and slivers that went (`float32_repair.STEPS`), do not close what the third corner on
+#: either side of such an edge leaves open by so many steps of a file.
+OPEN_STEPS = 1000.0
 #: Deformed struts do so at an edge that sticks out and is sharper than this: facets round a strut
 #: turn by 60 degrees at most, and where struts meet is a valley.
 STICKS_OUT = -0.2
@@ -152,7 +156,7 @@ class Looks:
         rows = np.flatnonzero(self.marks & JUDGED == 0)
         if len(rows):
             part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
-            turned[rows[turning(part, deformed)]] = True
+            turned[rows[turning(part, deformed, self.step)]] = True
         return touching(vertices_of(mesh.triangles[turned], len(mesh.vertices)), mesh.triangles)
 
 
@@ -177,7 +181,7 @@ def look_at(
     """
     at_rim = corners_among(vertices_of(rim, len(mesh.vertices)), mesh.triangles)
     open_, marks = at_rim > 0, np.where(at_rim > 1, np.uint8(0), np.uint8(JUDGED))
-    turned = turning(mesh, deformed)
+    turned = turning(mesh, deformed, step)
     if not len(turned):
         return Looks(marks, step)
     marks[turned] |= TURNED
@@ -507,14 +511,21 @@ def _to_neighbours(mesh: TriangleMesh, rows: Ints, near: Ints) -> Floats:
 def find_folds(mesh: TriangleMesh, deformed: bool = False) -> Bools:
     """(m,) the triangles that have a corner at a triangle where the surface turns back on itself.
 
-    Where it is deformed, also those at sharp edges that stick out.
+    So little that a file may close it; where it is deformed, however much, and also those at sharp
+    edges that stick out.
     """
-    turned = mesh.triangles[turning(mesh, deformed)]
+    turned = mesh.triangles[turning(mesh, deformed, decimal_step(mesh.vertices))]
     return touching(vertices_of(turned, len(mesh.vertices)), mesh.triangles)
 
 
-def turning(mesh: TriangleMesh, deformed: bool = False) -> Ints:
-    """The triangles at both sides of the edges of `find_folds`, ascending."""
+def turning(mesh: TriangleMesh, deformed: bool, step: float) -> Ints:
+    """The triangles at both sides of the edges of `find_folds`, ascending.
+
+    Args:
+        mesh: any mesh, mm.
+        deformed: as of `folds_of`.
+        step: of the decimals of a text of the whole surface, mm.
+    """
     size = len(mesh.vertices)
     corners, columns = mesh.triangles.T, mesh.vertices.T
     # At both ends of such an edge two of the normals nearly cancel out, and so their sum is short.
@@ -543,10 +554,20 @@ def turning(mesh: TriangleMesh, deformed: bool = False) -> Ints:
     one, two = owner[side], owner[other]
     cosine = sum(along[one] * along[two] for along in normal)
     turned = cosine < TURNS_BACK
+
+    def above(owner: Ints, side: Ints, apex: Ints) -> Floats:
+        """How far corners lie above the planes of facets that have sides, mm."""
+        beyond = mesh.vertices[apex] - mesh.vertices[start[side]]
+        return np.asarray(sum(along[owner] * beyond[:, k] for k, along in enumerate(normal)))
+
     if deformed:
-        beyond = mesh.vertices[apex[other]] - mesh.vertices[start[side]]
-        sticks_out = sum(along[one] * beyond[:, k] for k, along in enumerate(normal)) < 0.0
+        sticks_out = above(one, side, apex[other]) < 0.0
         turned |= (cosine < STICKS_OUT) & sticks_out
+    else:
+        room = OPEN_STEPS * step
+        turned &= (np.abs(above(one, side, apex[other])) < room) | (
+            np.abs(above(two, other, apex[side])) < room
+        )
     found: Ints = np.unique(rows[np.concatenate([one[turned], two[turned]])])
     return found
 

@@ -18,14 +18,17 @@ from volfrep.spatial.resolve_crossings import find_folds, resolve_fold_crossings
 from volfrep.util.progress import Monitor
 
 
-def lens(dent):
-    """A flat lens of 20 whose rim is a knife's edge; a vertex next to it goes through by `dent`."""
-    profile = np.array([(0.0, -0.3), (6.0, -0.2), (9.0, -0.05), (10.0, 0.0), (9.0, 0.05),
-                        (6.0, 0.2), (0.0, 0.3)])  # fmt: skip
+def lens(dent, thin=2e-4):
+    """A flat lens of 20 whose rim is a knife's edge; a vertex next to it goes through by `dent`.
+
+    Its facets are `thin` mm apart 1 mm from the rim.
+    """
+    profile = np.array([(0.0, -3.0), (6.0, -2.0), (9.0, -0.5), (10.0, 0.0), (9.0, 0.5),
+                        (6.0, 2.0), (0.0, 3.0)]) * (1.0, thin)  # fmt: skip
     made = manifold3d.CrossSection([profile]).revolve(64).to_mesh64()
     vertices = np.array(made.vert_properties)[:, :3]
     above = np.isclose(np.hypot(*vertices[:, :2].T), 9.0) & (vertices[:, 2] > 0.0)
-    vertices[np.flatnonzero(above)[5], 2] = -0.05 - dent if dent else 0.05
+    vertices[np.flatnonzero(above)[5], 2] = -0.5 * thin - dent if dent else 0.5 * thin
     return TriangleMesh(vertices, np.asarray(made.tri_verts, np.int32))
 
 
@@ -38,8 +41,15 @@ def test_the_rim_of_a_lens_turns_back_and_the_rest_does_not():
     assert not find_folds(samples.box()).any()
 
 
+def test_a_rim_that_no_rounding_closes_is_a_fold_of_what_is_deformed_only():
+    """A wall along flat struts makes two such rims on each, a fifth of all facets beside them."""
+    open_by_far = lens(0.0, thin=0.1)
+    assert not find_folds(open_by_far).any()
+    assert find_folds(open_by_far, deformed=True).any()
+
+
 def test_a_rim_that_runs_through_itself_is_drawn_apart():
-    mesh = lens(0.02)
+    mesh = lens(4e-5)
     straight, place = resolve_fold_crossings(mesh, Monitor())
     assert len(piercing_pairs(as_read(mesh)))
     assert not len(piercing_pairs(as_read(straight)))
@@ -55,7 +65,7 @@ def test_nothing_moves_where_nothing_crosses():
 
 def test_what_only_grazes_is_drawn_apart_by_a_hair_in_a_deformed_mesh_too():
     """With as much as folds need, corners of large facets went through others by 0.2 mm."""
-    mesh = lens(1e-6)
+    mesh = lens(1e-6, thin=0.1)
     assert len(piercing_pairs(as_read(mesh)))
     straight, place = resolve_fold_crossings(mesh, Monitor(), deformed=True)
     assert not len(piercing_pairs(as_read(straight)))

@@ -150,6 +150,7 @@ def test_a_lattice_that_loses_or_joins_too_much_is_refused(monkeypatch):
     assert filled.volumes().sum() == pytest.approx(120.0, rel=0.05)
 
 
+@pytest.mark.costly
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
 def test_a_bar_from_a_lattice_is_stretched_and_knows_its_outside(monkeypatch, tmp_path: Path):
     bar = samples.box((40.0, 4.0, 4.0))

@@ -38,6 +38,7 @@ def test_a_cell_is_crushed_as_its_tetrahedra_are():
     assert found.energy_to(0.2) == pytest.approx(solid, rel=0.03)
 
 
+@pytest.mark.costly
 def test_rubber_comes_back_and_stiff_cells_soften():
     rubber = SolidMaterial("Rubber", 1.2, 60.0, 0.45)
     found = crush("Kelvin", 10, 0.8, material=rubber, count=1, strain=0.2)

@@ -70,6 +70,7 @@ def test_walls_and_solid_layers_are_counted():
     assert plain.filament == pytest.approx(48000 - 0.8 * inner, rel=0.01)
 
 
+@pytest.mark.costly
 def test_bands_are_so_few_that_most_are_wide():
     for reach, count in ((4.0, 3), (8.0, 5)):
         made = slicer_infill(BOX, start=10, end=50, reach=reach, line_width=WIDTH)

@@ -69,6 +69,7 @@ def test_struts_that_show_keep_octants_apart():
     assert monitor.work["kinds of octants meshed"] == low_high_or_inside_along_three_axes
 
 
+@pytest.mark.costly_cases("Kagome")
 @pytest.mark.parametrize("name", ["CVC", "Kagome"])
 def test_octants_that_are_others_with_their_axes_exchanged_are_not_meshed(name):
     """They have these octants' insides, and the borders that they would have alone."""

@@ -34,6 +34,7 @@ def bar(diameter):
     return skin_model(body, THICK, 3.0, STEEL)
 
 
+@pytest.mark.costly_but("3.0", "8.0")
 @pytest.mark.parametrize("diameter", [3.0, 4.0, 5.0, 6.0, 8.0, 12.0])
 def test_round_bars_bend_and_twist_as_their_sections_say(diameter):
     """With shells half-way down the skin a bar of 4 mm bent 1.81 times as far, one of 6 mm 1.21.
@@ -71,6 +72,7 @@ def test_round_bars_bend_and_twist_as_their_sections_say(diameter):
     assert 0.9 < turned / (LENGTH / SHEAR / (2 * inertia)) < most
 
 
+@pytest.mark.costly_but("3.0", "8.0")
 @pytest.mark.parametrize("diameter", [3.0, 4.0, 6.0, 8.0])
 def test_shells_of_round_bars_hold_their_volume(diameter):
     shells = bar(diameter).shells

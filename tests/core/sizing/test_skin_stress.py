@@ -38,6 +38,7 @@ def test_a_stress_that_is_even_or_linear_in_a_face_is_kept_as_it_is():
         assert (skin._patches @ values)[side] == pytest.approx(values[side], abs=0.1)
 
 
+@pytest.mark.costly
 @pytest.mark.skipif(find_calculix() is None, reason="CalculiX is not installed")
 def test_where_a_box_is_held_its_skin_is_stressed_as_calculix_says():
     """The largest piece of each triangle governed there: 1.6 times what wedges have."""

@@ -21,7 +21,7 @@ from ..spatial.proximity import closest_points
 from ..spatial.self_intersection import crossing_triangles
 from ..util.progress import Monitor
 from ..util.types import Bools, Ints
-from .fins import folded_facets
+from .folds import folded_facets
 
 #: A surface with more faults than this is not all but mended.
 MOST = 1000

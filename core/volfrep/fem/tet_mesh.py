@@ -10,13 +10,14 @@ from __future__ import annotations
 import re
 import shutil
 import tempfile
-import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
+from ..mesh.brep import TOLERANCE as LEAST_LENGTH
 from ..mesh.brep import FacetedBrep, faceted_brep
+from ..mesh.remesh import normals
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..mesh.well_shaped import Tolerance, angles_of, mend_bad_facets
 from ..process.child import Limits, OverLimit
@@ -25,9 +26,9 @@ from ..spatial.proximity import closest_points, sample_triangles
 from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
-from ..util.types import Floats, Ints
+from ..util.types import Bools, Floats, Ints
 from .facet_grading import grade_facets, side_lengths
-from .fins import folded_facets, without_fins
+from .folds import folded_facets
 from .single_moves import without_faults
 from .stuffed_mesh import bodies_of, face_pairs, signed_volumes, stuffed_mesh
 
@@ -40,30 +41,28 @@ VOLUME_TOLERANCE = 1e-6
 VOLUME_WARNED = 2e-3
 #: Nodes are on a wall within this part of its box's diagonal: what single precision keeps.
 SURFACE_TOLERANCE = 1e-6
+#: No places at all, mm.
+NOWHERE = np.zeros((0, 3))
 #: Gmsh copes with facets that have no angle below this, degrees.
 NEEDLE = 2.0
 #: Needles and caps are mended where no move takes the surface farther than this part of the mesh's
-#: median edge. About places where facets would cross or fold it may be less in the next try, each
-#: time so many median edges farther about them, and they are mended so many times.
+#: median edge. It is less so many median edges about places where facets would cross or fold.
 MENDING = 0.05
 NEAR = 1.0
 #: Facets that run through each other by less (median edges) touch: they lie in one plane.
 TOUCHING = 1e-7
-TRIES = 6
 #: What Gmsh finds to intersect is mended less in a next try, so many times.
-GMSH_TRIES = 4
+GMSH_TRIES = 1
 #: Gmsh improves what it has filled, which does not end with a few meshes: it may take so many times
-#: what is told for all, and at least so many seconds, and is left out then. After that time no
-#: other try begins.
-PATIENCE = 5.0
+#: what is told for all, and at least so many seconds; what it has filled is taken as it is then.
+PATIENCE = 3.0
 LEAST_PATIENCE = 120.0
 #: No edge is split into pieces shorter than this part of it.
 SHORTEST = 0.25
 #: Seconds, nodes, elements and bytes of the deck per triangle, each within a factor of two of what
 #: was measured on blocks, boxes with a skin and without, and the demo's bracket, of 16,000 to
 #: 197,000 triangles: 2 to 7e-4 s, 2.5 to 4.6 nodes, 1.2 to 2.5 elements, 200 to 410 bytes. A skin
-#: takes the most. Where a wall cuts the lattice the needles are mended before, in one to six tries
-#: of 2 to 4e-4 s each.
+#: takes the most. Where a wall cuts the lattice the needles are mended before.
 SECONDS_PER_TRIANGLE = 4e-4
 SECONDS_PER_CUT_TRIANGLE = 1e-3
 NODES_PER_TRIANGLE = 3.6
@@ -79,8 +78,6 @@ LATTICE_TETRAHEDRA = (400_000, 1_200_000)
 #: No more than this part of the volume may come or go by it.
 MOST_GROWN = 0.05
 
-#: Gmsh orders the last two mid-edge nodes of a tetrahedron the other way round than solvers do.
-_SOLVER_ORDER = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]
 #: Edges in the order of their mid-edge nodes.
 _EDGES = np.array([[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]])
 #: The corners of each face, and the middles of its edges.
@@ -92,10 +89,12 @@ _GEO = """Merge "surface.msh";
 %s
 Mesh.Algorithm3D = 1;
 Mesh.AngleToleranceFacetOverlap = 0.001;
-Mesh.ElementOrder = 2;
-Mesh.SecondOrderLinear = 1;
-Mesh.Optimize = %d;
+Mesh.Optimize = 0;
 Mesh.MshFileVersion = 2.2;
+Mesh 3;
+Save "filled.msh";
+OptimizeMesh "Gmsh";
+Save "improved.msh";
 """
 
 
@@ -111,8 +110,8 @@ class TetrahedralMesh:
         grown: by what part of it the volume became larger by that.
         improved: whether Gmsh came to an end with improving their shapes.
         lattice: the edge of the lattice that they are cut from, mm; 0 where Gmsh made them.
-        away: how far places of the mesh's surface are from theirs then, mm: the farthest, and all
-            but one in a hundred.
+        away: how far places of the mesh's surface are from theirs then, or places of theirs from
+            the mesh's, mm: the farthest of both, and all but one in a hundred.
     """
 
     nodes: Floats
@@ -130,7 +129,7 @@ class TetrahedralMesh:
             return (
                 f"Gmsh cannot fill this mesh: its {len(self.elements):,} tetrahedra are cut from a "
                 f"lattice of {self.lattice:.3g} mm instead, so that edges are rounded and what is "
-                f"thinner may be lost. The surface is within {self.away[0]:.2g} mm of it "
+                f"thinner may be lost. Either surface is within {self.away[0]:.2g} mm of the other "
                 f"({self.away[1]:.2g} mm for 99 % of its places), the volume differs by "
                 f"{self.grown:+.2%}.",
             )
@@ -201,10 +200,9 @@ def filled_by_gmsh(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrah
             "solve it with beams."
         )
     monitor = monitor or Monitor()
-    places: list[Floats] = []
-    end = time.monotonic() + _patience(mesh)
+    places = NOWHERE
     while True:
-        surface, moved = mend_surface(compact(mesh), monitor, tuple(places))
+        surface, moved = mend_surface(compact(mesh), monitor, places)
         surface = monitor.call(lambda: grade_facets(surface))  # noqa: B023
         try:
             said, filled = _run_gmsh(program, surface, monitor)
@@ -212,13 +210,13 @@ def filled_by_gmsh(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrah
             if not moved:
                 raise
             raise _cannot_fill(f"mended it is no solid: {fault}") from fault
-        place = _intersection(said)
         if filled is not None:
             break
+        place = _intersection(said)
         # Facets that touch in one plane cross nowhere, but are not to Gmsh's liking.
-        if place is None or not moved or len(places) == GMSH_TRIES or time.monotonic() > end:
+        if place is None or not moved or len(places) == GMSH_TRIES:
             raise _cannot_fill(said)
-        places.append(place)
+        places = np.concatenate([places, place])
     result = replace(filled, moved=moved, grown=surface.volume / mesh.volume - 1.0)
     volumes = result.volumes()
     if not len(volumes) or volumes.min() <= 0:
@@ -250,35 +248,41 @@ def _filled_from_lattice(
         ) from failure
     outside, facets = np.unique(face_pairs(corners)[1], return_inverse=True)
     surface = TriangleMesh(points[outside], facets.reshape(-1, 3).astype(np.int32))
-    away = monitor.call(lambda: closest_points(surface, _places(mesh, edge))[1])
-    far = (float(away.max()), float(np.quantile(away, 0.99)))
+    away = monitor.call(lambda: _apart(mesh, surface, 0.5 * edge))
     nodes, elements = _second_order(points, corners)
-    return TetrahedralMesh(nodes, elements, grown=grown, lattice=edge, away=far)
+    return TetrahedralMesh(nodes, elements, grown=grown, lattice=edge, away=away)
 
 
 def _median_edge(mesh: TriangleMesh) -> float:
     return float(np.median(side_lengths(mesh.vertices[mesh.triangles])))
 
 
-def _places(mesh: TriangleMesh, edge: float) -> Floats:
-    """The vertices of a mesh, and places in those facets that are larger than an edge."""
-    corners = mesh.vertices[mesh.triangles]
-    length = side_lengths(corners).max(axis=1)
-    return np.concatenate([mesh.vertices, sample_triangles(corners[length > edge], edge)[0]])
+def _apart(one: TriangleMesh, other: TriangleMesh, spacing: float) -> tuple[float, float]:
+    """How far places of either surface are from the other: the farthest, all but one in a hundred.
+
+    Args:
+        one: mm.
+        other: mm.
+        spacing: of the places in large facets, mm; of smaller ones the corners are asked.
+    """
+    ways = []
+    for asked, place in ((one, other), (other, one)):
+        corners = asked.vertices[asked.triangles]
+        large = side_lengths(corners).max(axis=1) > spacing
+        inner = sample_triangles(corners[large], spacing)[0]
+        ways.append(closest_points(place, np.concatenate([asked.vertices, inner]))[1])
+    return float(max(way.max() for way in ways)), float(max(np.quantile(way, 0.99) for way in ways))
 
 
 def _second_order(points: Floats, corners: Ints) -> tuple[Floats, Ints]:
-    """Nodes and elements with a node in the middle of each edge."""
+    """Nodes and elements with a node in the middle of each edge; points that none uses go."""
+    used, corners = np.unique(corners, return_inverse=True)
+    points, corners = points[used], corners.reshape(-1, 4)
     ends = np.sort(corners[:, _EDGES], axis=2) @ np.array([len(points), 1])
     names, row = np.unique(ends, return_inverse=True)
     one, two = np.divmod(names, len(points))
     nodes = np.concatenate([points, 0.5 * (points[one] + points[two])])
     return nodes, np.concatenate([corners, len(points) + row.reshape(-1, 6)], axis=1)
-
-
-def _patience(mesh: TriangleMesh) -> float:
-    """Seconds."""
-    return max(PATIENCE * SECONDS_PER_TRIANGLE * len(mesh.triangles), LEAST_PATIENCE)
 
 
 def _run_gmsh(
@@ -289,23 +293,24 @@ def _run_gmsh(
         brep = faceted_brep(surface)
     except VolfrepError as fault:
         raise FaultyMesh(str(fault)) from fault
-    patience = _patience(surface)
-    for improved in (True, False):
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            (folder / "surface.msh").write_bytes(_surface(surface, brep.shell))
-            geo = _GEO % (_volumes(brep), improved)
-            (folder / "fill.geo").write_text(geo, encoding="ascii")
-            command = [program, "fill.geo", "-3", "-o", "filled.msh", "-v", "2"]
-            try:
-                said = run_program(command, folder, monitor, limits=Limits(patience))
-            except OverLimit:
-                continue
-            filled = folder / "filled.msh"
-            if not filled.is_file() or said.returncode:
-                return said.stdout, None
-            return said.stdout, replace(_read(filled.read_bytes()), improved=improved)
-    return f"it came to no end within {patience:.0f} s", None
+    patience = max(PATIENCE * SECONDS_PER_TRIANGLE * len(surface.triangles), LEAST_PATIENCE)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "surface.msh").write_bytes(_surface(surface, brep.shell))
+        (folder / "fill.geo").write_text(_GEO % _volumes(brep), encoding="ascii")
+        command = [program, "fill.geo", "-parse_and_exit", "-v", "2"]
+        try:
+            said = run_program(command, folder, monitor, limits=Limits(patience)).stdout
+        except OverLimit:
+            said = f"it came to no end within {patience:.0f} s"
+        improved, filled = folder / "improved.msh", folder / "filled.msh"
+        if "Error" in said:
+            return said, None
+        for file in (improved, filled):
+            if file.is_file() and (read := _read(file.read_bytes())) is not None:
+                nodes, elements = _second_order(*read)
+                return said, TetrahedralMesh(nodes, elements, improved=file is improved)
+        return said, None
 
 
 def _intersection(said: str) -> Floats | None:
@@ -315,47 +320,41 @@ def _intersection(said: str) -> Floats | None:
 
 
 def mend_surface(
-    mesh: TriangleMesh, monitor: Monitor, places: tuple[Floats, ...] = ()
+    mesh: TriangleMesh, monitor: Monitor, places: Floats = NOWHERE
 ) -> tuple[TriangleMesh, float]:
     """A closed mesh without needles and caps, and how far a move could take its surface, mm.
 
-    The mesh as it is where it has no angle below `NEEDLE`, or where facets would cross then;
-    one in which no facet lies on its neighbour that did not before, where there is one.
+    No facets cross, and none lies on its neighbour or has no area, that did not before. The mesh as
+    it is where it has no angle below `NEEDLE`.
+
+    Args:
+        mesh: closed.
+        monitor: for cancel.
+        places: about which moves are less from the start, mm; one that is there several times, so
+            many times.
     """
     if angles_of(mesh.vertices[mesh.triangles]).min(initial=180.0) >= NEEDLE:
         return mesh, 0.0
     edge = _median_edge(mesh)
-    tolerance = Tolerance(MENDING * edge, places, NEAR * edge)
-    best, folded_before = (mesh, 0.0), folded_facets(mesh).sum()
-    for done in range(TRIES):
-        better = monitor.call(lambda: mend_bad_facets(mesh, tolerance, SHORTEST * edge))  # noqa: B023
-        every = np.ones(len(better.triangles), bool)
-        wrong = monitor.call(lambda: crossing_triangles(better, every, TOUCHING * edge))  # noqa: B023
-        if not wrong.any():
-            # What folds in the end may still be filled, and needles surely are not.
-            better = without_fins(better, folded_facets(better))
-            better = _one_by_one(better, tolerance.usual, TOUCHING * edge, monitor)
-            best = better, tolerance.usual
-            wrong = folded_facets(better)
-            if wrong.sum() <= folded_before:
-                break
-        place = better.vertices[np.unique(better.triangles[wrong])]
-        near = NEAR * (done + 1) * edge
-        tolerance = replace(tolerance, places=(*tolerance.places, place), reach=near)
-    return best
+    tolerance = Tolerance(MENDING * edge, NEAR * edge)
+    for place in places:
+        tolerance = tolerance.with_less(place[None])
 
+    def find_faults(part: TriangleMesh, new: Bools) -> Bools:
+        monitor.tick()
+        faulty = crossing_triangles(part, new, TOUCHING * edge) | folded_facets(part, new)
+        rows = np.flatnonzero(new)
+        size = np.linalg.norm(normals(part.vertices[part.triangles[rows]]), axis=1)
+        faulty[rows] |= size <= LEAST_LENGTH**2
+        return faulty
 
-def _one_by_one(
-    mesh: TriangleMesh, tolerance: float, touching: float, monitor: Monitor
-) -> TriangleMesh:
-    """A mended mesh without the folds that are left, then without the needles, if none cross."""
-    for needle in (0.0, NEEDLE):
-        better = without_faults(mesh, tolerance, needle, monitor)
-        if better is not mesh:
-            every = np.ones(len(better.triangles), bool)
-            wrong = monitor.call(lambda: crossing_triangles(better, every, touching))  # noqa: B023
-            mesh = mesh if wrong.any() else better
-    return mesh
+    better = mend_bad_facets(mesh, tolerance, SHORTEST * edge, find_faults)
+    single = without_faults(better, tolerance.usual, NEEDLE, monitor)
+    if single is not better:
+        every = np.ones(len(single.triangles), bool)
+        if not monitor.call(lambda: crossing_triangles(single, every, TOUCHING * edge)).any():
+            better = single
+    return better, tolerance.usual
 
 
 def nodes_on(filled: TetrahedralMesh, surface: TriangleMesh) -> Ints:
@@ -430,14 +429,23 @@ def _surface(mesh: TriangleMesh, shell: Ints) -> bytes:
     )  # fmt: skip
 
 
-def _read(data: bytes) -> TetrahedralMesh:
-    """Nodes and elements of Gmsh's format 2.2, as text that holds nothing but tetrahedra."""
+def _read(data: bytes) -> tuple[Floats, Ints] | None:
+    """Nodes (n, 3) and elements in Gmsh's order, of its format 2.2 as text of one kind of elements.
+
+    None where there are no elements, or the file does not end.
+    """
+    if b"$EndElements" not in data:
+        return None
     nodes = np.array(_section(data, b"Nodes").split()[1:], np.float64).reshape(-1, 4)
-    rows = np.array(_section(data, b"Elements").split()[1:], np.int64).reshape(-1, 15)
+    count, *numbers = _section(data, b"Elements").split()
+    if not int(count):
+        return None
     # Gmsh's numbers may have gaps: they become rows.
     row_of = np.zeros(int(nodes[:, 0].max()) + 1, np.int64)
     row_of[nodes[:, 0].astype(np.int64)] = np.arange(len(nodes))
-    return TetrahedralMesh(nodes[:, 1:].copy(), row_of[rows[:, 5:][:, _SOLVER_ORDER]])
+    # Number, kind, two tags before the nodes.
+    elements = np.array(numbers, np.int64).reshape(int(count), -1)[:, 5:]
+    return nodes[:, 1:].copy(), row_of[elements]
 
 
 def _section(data: bytes, name: bytes) -> bytes:

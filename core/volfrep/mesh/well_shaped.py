@@ -11,7 +11,7 @@ M. C. Rivara, Int. J. Numer. Meth. Engng. 40, 1997.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,6 +20,7 @@ from scipy.spatial import cKDTree
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
 from . import remesh
+from .patches import FaultFinder, without_faults
 from .topology import (
     adjacent,
     among_edges,
@@ -48,8 +49,10 @@ OPPOSITE = 0.3
 PATH = 20
 #: Passes of flips after each collapse and each split.
 FLIPS = 3
-#: Rounds of all three moves.
+#: Rounds of all three moves at most, and which part of the bad facets two of them, each of which
+#: collapses the other way, may leave for a next one.
 ROUNDS = 24
+LEFT = 0.98
 #: Rings of facets about bad ones that may change.
 RINGS = 3
 #: The tolerance about a place that asks for less of it, in parts of the usual one.
@@ -62,25 +65,39 @@ class Tolerance:
 
     Attributes:
         usual: mm.
-        places: arrays (k, 3) of places, mm: about one of each it is `LESS` times as much.
-        reach: how far about them, mm.
+        reach: how far about a place it is less, mm.
+        places: (k, 3) mm.
+        times: (k,) how many times it is `LESS` times as much there.
     """
 
     usual: float
-    places: tuple[Floats, ...] = ()
     reach: float = 0.0
+    places: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+    times: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
     def at(self, points: Floats) -> Floats:
         """(n,) the tolerance at points (n, 3), mm."""
-        result = np.full(len(points), self.usual)
-        for tree in self._trees:
-            apart = tree.query(points, distance_upper_bound=self.reach)[0]
-            result[apart < np.inf] *= LESS
+        result: Floats = self.usual * LESS ** self._times_at(points)
+        return result
+
+    def with_less(self, places: Floats) -> Tolerance:
+        """The same with once less about places (k, 3), mm."""
+        if not len(places):
+            return self
+        times = np.concatenate([self.times, self._times_at(places) + 1])
+        return replace(self, places=np.concatenate([self.places, places]), times=times)
+
+    def _times_at(self, points: Floats) -> Ints:
+        """(n,) as often as at the nearest place within reach, of the last that was told."""
+        if not len(self.places):
+            return np.zeros(len(points), np.int64)
+        row = self._tree.query(points, distance_upper_bound=self.reach)[1]
+        result: Ints = np.append(self.times, 0)[row]
         return result
 
     @cached_property
-    def _trees(self) -> list[cKDTree]:
-        return [cKDTree(places) for places in self.places]
+    def _tree(self) -> cKDTree:
+        return cKDTree(self.places)
 
 
 def angles_of(corners: Floats) -> Floats:
@@ -110,18 +127,26 @@ def is_bad(corners: Floats) -> Bools:
     return np.asarray((angle.min(axis=1) < LEAST_ANGLE) | (angle.max(axis=1) > MOST_ANGLE))
 
 
-def mend_bad_facets(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -> TriangleMesh:
+def mend_bad_facets(
+    mesh: TriangleMesh, tolerance: Tolerance, shortest: float, find_faults: FaultFinder
+) -> TriangleMesh:
     """The closed mesh without needles and caps, as far as that goes.
+
+    What a round of moves changes is a patch here and there: those that have a fault are taken back,
+    and less is moved about them from then on. So the mesh has no faults that it did not have.
 
     Args:
         mesh: closed, every edge of two facets.
         tolerance: how far a move may take the surface.
         shortest: no edge is split into pieces shorter than that, mm.
+        find_faults: of a mesh and (m,) facets that are new, (m,) facets that may not stay.
     """
     points, triangles = mesh.vertices, mesh.triangles.astype(np.int64)
     bad = is_bad(points[triangles])
+    counts = [np.inf, np.inf]
     for done in range(ROUNDS):
-        if not bad.any():
+        counts.append(int(bad.sum()))
+        if not counts[-1] or counts[-1] > LEFT * counts[-3]:
             break
         part = bad
         for _ in range(RINGS):
@@ -130,8 +155,9 @@ def mend_bad_facets(mesh: TriangleMesh, tolerance: Tolerance, shortest: float) -
         moved, piece = _mend(points[used], local, tolerance, shortest, done % 2 == 1)
         row = np.concatenate([used, len(points) + np.arange(len(moved) - len(used))])
         points = np.concatenate([points, moved[len(used) :]])
-        points[used] = moved[: len(used)]
-        rest, changed = triangles[~part], row[piece]
+        rest = triangles[~part]
+        changed, places = without_faults(points, rest, triangles[part], row[piece], find_faults)
+        tolerance = tolerance.with_less(points[places])
         triangles = np.concatenate([rest, changed])
         bad = np.concatenate([np.zeros(len(rest), bool), is_bad(points[changed])])
     return compact(TriangleMesh(points, triangles.astype(np.int32)))
@@ -158,9 +184,9 @@ def names(triangles: Ints, count: int) -> Ints:
 def _mend(
     points: Floats, triangles: Ints, tolerance: Tolerance, shortest: float, dearer: bool
 ) -> tuple[Floats, Ints]:
-    """An open piece after one round: points keep their rows, though not their facets."""
+    """An open piece after one round: points stay, though not their facets; new ones follow."""
     triangles = _without_threes(points, triangles, tolerance)
-    points, triangles = _collapse(points, triangles, tolerance, dearer)
+    triangles = _collapse(points, triangles, tolerance, dearer)
     triangles = _flip(points, triangles, tolerance)
     points, triangles = _split(points, triangles, shortest)
     return points, _flip(points, triangles, tolerance)
@@ -200,25 +226,25 @@ def _without_threes(points: Floats, triangles: Ints, tolerance: Tolerance) -> In
     return np.concatenate([triangles[stays], facet[goes]])
 
 
-def _collapse(
-    points: Floats, triangles: Ints, tolerance: Tolerance, dearer: bool
-) -> tuple[Floats, Ints]:
-    """Shortest edges of bad facets collapsed: points, which keep their rows, and facets.
+def _collapse(points: Floats, triangles: Ints, tolerance: Tolerance, dearer: bool) -> Ints:
+    """The facets with the shortest edges of bad ones collapsed.
 
     Onto the end where that moves the surface less, or else the `dearer` way.
     """
     bad = is_bad(points[triangles])
     if not bad.any():
-        return points, triangles
+        return triangles
     at_border = open_vertices(triangles, len(points))
     part = adjacent(bad, triangles, len(points))
     used, local = numbered(triangles[part], len(points))
     rules, longest = _rules(points[used], local, bad[part], at_border[used], tolerance, dearer)
     moved, some, renumber = remesh.collapse(points[used], local, rules, longest, np.inf)
-    row = used[renumber >= 0]
-    points = points.copy()
-    points[row] = moved
-    return points, np.concatenate([triangles[~part], row[some]])
+    # The end that is left has the other's place, or else its own: that place's row is its name.
+    row, gone = used[renumber >= 0], np.flatnonzero(renumber < 0)
+    kept = ~renumber[gone]
+    onto = (moved[kept] == points[used[gone]]).all(axis=1)
+    row[kept[onto]] = used[gone[onto]]
+    return np.concatenate([triangles[~part], row[some]])
 
 
 def _rules(

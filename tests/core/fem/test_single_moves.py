@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep.fem.fins import folded_facets
+from volfrep.fem.folds import folded_facets
 from volfrep.fem.single_moves import without_faults
 from volfrep.mesh.brep import faceted_brep
 from volfrep.mesh.remesh import edges

@@ -14,7 +14,7 @@ from volfrep import LatticeSpec
 from volfrep.fem import tet_mesh
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import sides, write_tetrahedra
-from volfrep.fem.fins import folded_facets
+from volfrep.fem.folds import folded_facets
 from volfrep.fem.tet_mesh import (
     MAX_TRIANGLES,
     CannotFill,
@@ -27,9 +27,11 @@ from volfrep.fem.tet_mesh import (
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mechanics.materials import Material
+from volfrep.mesh.brep import faceted_brep
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.mesh.well_shaped import is_bad
 from volfrep.process.child import OverLimit
+from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.util.errors import Cancelled, VolfrepError
 from volfrep.util.progress import Monitor
 
@@ -61,6 +63,10 @@ def test_a_lattice_keeps_its_triangles():
     for node, (a, b) in enumerate(((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)), 4):
         middle = filled.nodes[corners[:, [a, b]]].mean(axis=1)
         assert np.abs(filled.nodes[filled.elements[:, node]] - middle).max() < 1e-12
+
+
+def corners_of(mesh):
+    return mesh.vertices[mesh.triangles]
 
 
 def canonical(triangles):
@@ -226,22 +232,14 @@ def test_what_gmsh_finds_to_intersect_is_mended_less(monkeypatch):
     filled, asked = tet_mesh._run_gmsh, []
 
     def mend(mesh, _, places):
-        asked.append(places)
+        asked.append(places.tolist())
         return mesh, 0.01
 
     monkeypatch.setattr(tet_mesh, "mend_surface", mend)
     monkeypatch.setattr(tet_mesh, "_run_gmsh", lambda *_: (said, None))
     with pytest.raises(CannotFill, match="facet-facet intersection"):
         filled_by_gmsh(samples.box((4.0, 4.0, 4.0)))
-    assert len(asked) == 1 + tet_mesh.GMSH_TRIES
-    assert asked[1][0].tolist() == [[1.5, -2.0, 0.3]]
-    asked.clear()
-    with monkeypatch.context() as no_time:
-        no_time.setattr(tet_mesh, "PATIENCE", 0.0)
-        no_time.setattr(tet_mesh, "LEAST_PATIENCE", -1.0)
-        with pytest.raises(CannotFill):
-            filled_by_gmsh(samples.box((4.0, 4.0, 4.0)))
-    assert len(asked) == 1
+    assert asked == [[], [[1.5, -2.0, 0.3]]]
     asked.clear()
     monkeypatch.setattr(
         tet_mesh, "_run_gmsh", lambda *given: filled(*given) if len(asked) > 1 else (said, None)
@@ -282,7 +280,7 @@ def test_a_lip_that_all_but_lies_on_the_surface_is_filled():
 
 
 @pytest.mark.costly
-def test_what_would_cross_is_not_mended(monkeypatch):
+def test_a_thin_skin_is_mended_without_a_fold_or_a_crossing():
     """Gmsh refuses a surface of which one facet is folded back onto the next, too."""
     solid = samples.box((15.0, 12.0, 12.0))
     mesh = fill(solid, LatticeSpec(cell="CVC", shell=1, resolution=8)).mesh
@@ -290,59 +288,40 @@ def test_what_would_cross_is_not_mended(monkeypatch):
     assert moved > 0.0
     assert is_bad(better.vertices[better.triangles]).sum() < 20
     assert not folded_facets(better).any()
-    monkeypatch.setattr(tet_mesh, "TRIES", 1)
-    monkeypatch.setattr(tet_mesh, "mend_bad_facets", lambda *_: better)
-    with monkeypatch.context() as one:
-        one.setattr(tet_mesh, "without_fins", lambda mesh, _: mesh)
-        one.setattr(tet_mesh, "_one_by_one", lambda mesh, *_: mesh)
-        one.setattr(
-            tet_mesh, "folded_facets", lambda some: np.full(len(some.triangles), some is better)
-        )
-        assert mend_surface(mesh, Monitor()) == (better, moved), "needles are worse"
+    assert not crossing_triangles(better, np.ones(len(better.triangles), bool), 0.0).any()
+    assert faceted_brep(better).bodies == 1
+
+
+def test_where_all_would_cross_nothing_is_mended(monkeypatch):
+    """Neither by many moves nor by single ones."""
+    slender = samples.box((100.0, 1.0, 1.0))
     monkeypatch.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)
-    assert mend_surface(mesh, Monitor()) == (mesh, 0.0)
+    better, moved = mend_surface(slender, Monitor())
+    assert moved > 0.0
+    assert np.array_equal(canonical(corners_of(better)), canonical(corners_of(slender)))
 
 
 @needs_gmsh
-def test_without_an_end_of_improving_the_tetrahedra_stay_as_they_are(monkeypatch):
-    run, asked = tet_mesh.run_program, []
+@pytest.mark.parametrize("is_filled", [True, False])
+def test_without_an_end_of_improving_the_tetrahedra_stay_as_they_are(monkeypatch, is_filled):
+    run = tet_mesh.run_program
 
     def impatient(command, folder, monitor, limits):
-        asked.append("Mesh.Optimize = 1;" in (folder / "fill.geo").read_text())
-        if asked[-1]:
-            raise OverLimit("time")
-        return run(command, folder, monitor, limits=limits)
+        run(command, folder, monitor, limits=limits)
+        (folder / "improved.msh").write_bytes((folder / "improved.msh").read_bytes()[:-9])
+        if not is_filled:
+            (folder / "filled.msh").unlink()
+        raise OverLimit("time")
 
     monkeypatch.setattr(tet_mesh, "run_program", impatient)
-    filled = tetrahedra(samples.box((4.0, 4.0, 4.0)))
-    assert asked == [True, False]
-    assert filled.volumes().sum() == pytest.approx(64)
-    assert "Gmsh came to no end" in filled.warnings[0]
-    monkeypatch.setattr(tet_mesh, "PATIENCE", 0.0)
-    monkeypatch.setattr(tet_mesh, "LEAST_PATIENCE", 0.0)
-    monkeypatch.setattr(tet_mesh, "run_program", run)
-    with pytest.raises(CannotFill, match=r"no end within 0 s.*beams"):
-        filled_by_gmsh(samples.box((4.0, 4.0, 4.0)))
-
-
-def test_each_try_mends_less_and_farther_about_what_crosses(monkeypatch):
-    asked = []
-    monkeypatch.setattr(
-        tet_mesh, "mend_bad_facets", lambda mesh, tolerance, _: asked.append(tolerance) or mesh
-    )
-    slender = samples.box((100.0, 1.0, 1.0))
-    with monkeypatch.context() as one:
-        one.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)
-        assert mend_surface(slender, Monitor()) == (slender, 0.0)
-    assert len(asked) == tet_mesh.TRIES
-    assert [len(one.places) for one in asked] == list(range(tet_mesh.TRIES))
-    reach = [one.reach / asked[0].reach for one in asked]
-    assert reach == pytest.approx([1, *range(1, tet_mesh.TRIES)])
-    # What lies on its neighbour already is no reason for another try.
-    asked.clear()
-    monkeypatch.setattr(tet_mesh, "folded_facets", lambda mesh: np.arange(len(mesh.triangles)) < 2)
-    assert mend_surface(slender, Monitor())[1] > 0.0
-    assert len(asked) == 1
+    box = samples.box((4.0, 4.0, 4.0))
+    if is_filled:
+        filled = tetrahedra(box)
+        assert filled.volumes().sum() == pytest.approx(64)
+        assert "Gmsh came to no end" in filled.warnings[0]
+    else:
+        with pytest.raises(CannotFill, match=r"no end within 120 s.*beams"):
+            filled_by_gmsh(box)
 
 
 @needs_gmsh

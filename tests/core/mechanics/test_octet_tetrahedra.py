@@ -60,9 +60,11 @@ def stiffness(radius: float, edge: float, folder: Path):
     (folder / "octant.geo").write_text(_GEO % figures)
     gmsh = ["gmsh", "octant.geo", "-3", "-o", "octant.msh", "-v", "1"]
     subprocess.run(gmsh, cwd=folder, check=True, capture_output=True)
-    filled = tet_mesh._read((folder / "octant.msh").read_bytes())
-    used, rows = np.unique(filled.elements, return_inverse=True)
-    filled = tet_mesh.TetrahedralMesh(filled.nodes[used], rows.reshape(-1, 10))
+    nodes, elements = tet_mesh._read((folder / "octant.msh").read_bytes())
+    used, rows = np.unique(elements, return_inverse=True)
+    # Gmsh orders the last two mid-edge nodes the other way round than solvers do.
+    rows = rows.reshape(-1, 10)[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]]
+    filled = tet_mesh.TetrahedralMesh(nodes[used], rows)
     deck = folder / "octant_stretched.inp"
     write_tetrahedra(filled, deck, Material("SOLID", 1.0, 0.3, 1.0))
     deck.write_text(

@@ -27,7 +27,11 @@ def trimmed(request):
 
 @pytest.fixture(scope="module")
 def better(trimmed):
-    return mend_bad_facets(trimmed, Tolerance(TOLERANCE), 0.1)
+    return mend_bad_facets(trimmed, Tolerance(TOLERANCE), 0.1, no_fault)
+
+
+def no_fault(_, new):
+    return np.zeros(len(new), bool)
 
 
 def corners(mesh):
@@ -73,7 +77,7 @@ def test_it_does_not_grow_out_of_hand(trimmed, better):
 def test_a_mesh_without_needles_is_left_alone():
     mesh = block(LatticeSpec("CVC", cell_size=10, strut_radius=1), (1, 1, 1)).mesh
     assert not is_bad(corners(mesh)).any()
-    same = mend_bad_facets(mesh, Tolerance(TOLERANCE), 0.1)
+    same = mend_bad_facets(mesh, Tolerance(TOLERANCE), 0.1, no_fault)
     assert np.array_equal(corners(same), corners(mesh))
 
 
@@ -84,7 +88,7 @@ def test_a_wall_along_struts_leaves_no_needles(cell):
     spec = LatticeSpec(cell, cell_size=10, strut_radius=1, shell=0, deviation=0.05)
     mesh = fill(samples.box((10.0, 10.0, 10.0)), spec).mesh
     assert is_bad(corners(mesh)).sum() > 100
-    better = mend_bad_facets(mesh, Tolerance(TOLERANCE), 0.1)
+    better = mend_bad_facets(mesh, Tolerance(TOLERANCE), 0.1, no_fault)
     assert not is_bad(corners(better)).any()
     assert better.volume == pytest.approx(mesh.volume, rel=1e-3)
     assert not crossing_triangles(better, np.ones(len(better.triangles), bool), 1e-9).any()
@@ -92,9 +96,10 @@ def test_a_wall_along_struts_leaves_no_needles(cell):
 
 def test_about_places_the_tolerance_is_less():
     points = np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0]])
-    places = np.zeros((1, 3)), np.array([[0.5, 0, 0]])
-    assert Tolerance(0.16).at(points) == pytest.approx([0.16, 0.16, 0.16])
-    assert Tolerance(0.16, places, 0.75).at(points) == pytest.approx([0.01, 0.04, 0.16])
+    usual = Tolerance(0.16, 0.75)
+    assert usual.at(points) == pytest.approx([0.16, 0.16, 0.16])
+    less = usual.with_less(np.array([[0.5, 0, 0]])).with_less(np.array([[-0.1, 0, 0]]))
+    assert less.at(points) == pytest.approx([0.01, 0.04, 0.16])
 
 
 def test_a_sharp_edge_stays_sharp():
@@ -112,7 +117,7 @@ def test_a_sharp_edge_stays_sharp():
     bottoms = [[0, k + 1, k] for k in range(1, size - 1)]
     mesh = TriangleMesh(points, np.array([*sides.tolist(), *lids, *bottoms], np.int32))
     assert measure(mesh).watertight
-    better = mend_bad_facets(mesh, Tolerance(TOLERANCE), 0.1)
+    better = mend_bad_facets(mesh, Tolerance(TOLERANCE), 0.1, no_fault)
     assert measure(better).watertight
     assert better.volume == pytest.approx(1000.0, rel=1e-9)
     assert is_bad(corners(better)).sum() < 0.05 * is_bad(corners(mesh)).sum()
@@ -140,5 +145,5 @@ def test_a_flip_makes_no_edge_that_others_have():
     """Where some facets about both its ends were not looked at, an edge was made twice."""
     spec = LatticeSpec("FCC", cell_size=10, strut_radius=1, shell=0, deviation=0.05)
     mesh = fill(samples.sphere(11.0), spec).mesh
-    better = mend_bad_facets(mesh, Tolerance(0.03), 0.15)
+    better = mend_bad_facets(mesh, Tolerance(0.03), 0.15, no_fault)
     assert measure(better).watertight

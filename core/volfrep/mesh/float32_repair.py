@@ -20,7 +20,7 @@ from ..util.types import Bools, Ints
 from . import remesh
 from .precision import merging_vertices
 from .topology import edge_keys, numbered, open_vertices, touching, vertices_of
-from .triangle_mesh import TriangleMesh, compact, corners_at, rows_where
+from .triangle_mesh import TriangleMesh, corners_at, rows_where
 
 #: By rounding a height may come out so many times as large, from whichever corner it is taken.
 NEARLY = 1.001
@@ -168,16 +168,6 @@ def repair_slivers(mesh: TriangleMesh, tolerance: float, among: Ints | None = No
         rest.old, rest.piece, rest.origin, new, rest.stay[differs], rest.places[differs],
         np.setdiff1d(mesh.triangles[rest.old], rest.piece),
     )  # fmt: skip
-
-
-def without_slivers_at(
-    mesh: TriangleMesh, rows: Ints, tolerance: float
-) -> tuple[TriangleMesh, Bools]:
-    """`remove_slivers` that share a vertex with chosen triangles, of any mesh; (m,) what is new."""
-    near = touching(vertices_of(mesh.triangles[rows], len(mesh.vertices)), mesh.triangles)
-    thin = _slivers(mesh.vertices, mesh.triangles[near], tolerance)
-    result, new, _ = _rebuilt(mesh, np.flatnonzero(near)[thin], tolerance)
-    return mesh if result is mesh else compact(result, owned=True), new
 
 
 def without_inner_slivers(

@@ -15,7 +15,6 @@ from ..mesh.float32_repair import (
     edge_within,
     repair_slivers,
     separate_vertices,
-    without_slivers_at,
 )
 from ..mesh.precision import merging_vertices
 from ..mesh.quality import Quality, quality_after_moves, refuse_no_solid
@@ -196,18 +195,25 @@ def thinned(
     Returns:
         The surface; its mesh, drawn apart; and where that still crosses.
     """
-    precision, rows = edge_within(surface.bounds), np.unique(folded.pairs)
+    precision, mesh = edge_within(surface.bounds), surface.mesh
+    crossing = vertices_of(mesh.triangles[folded.pairs], len(mesh.vertices))
+    about = np.flatnonzero(touching(crossing, mesh.triangles))
     for factor in THINNER:
-        mesh, new = without_slivers_at(surface.mesh, rows, factor * precision)
-        changed = surface.on(mesh)
-        if not new.any() or not changed.is_joined:
+        repair = repair_slivers(mesh, factor * precision, about)
+        if not repair.new.any():
             continue
+        fresh = vertices_of(repair.piece[repair.new], len(mesh.vertices))
+        beside = np.flatnonzero(touching(fresh, mesh.triangles) & repair.stays(mesh))
+        changed = MendedSurface(surface, repair, beside).applied()
+        if not changed.is_joined:
+            continue
+        new = np.pad(repair.new, (len(changed.mesh.triangles) - len(repair.new), 0))
         if changed.octants is not None:
-            near = changed.octants.reached(mesh.vertices[mesh.triangles[new]])
-            changed = changed.with_octants(near, monitor)
+            corners = corners_at(changed.mesh.vertices, changed.mesh.triangles[new])
+            changed = changed.with_octants(changed.octants.reached(corners), monitor)
         whole = changed.mesh
         new = np.pad(new, (0, len(whole.triangles) - len(new)))
-        folded_now = folds_of(whole, monitor, deformed, new)
+        folded_now = folds_of(whole, monitor, deformed, new, changed.looks)
         apart, left = resolve_fold_crossings(whole, monitor, deformed, folded_now)
         if left is None:
             return changed, apart, None

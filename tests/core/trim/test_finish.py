@@ -12,10 +12,11 @@ from volfrep.design.spec import LatticeSpec
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mesh.float32_repair import Repair, repair_slivers
+from volfrep.mesh.precision import decimal_step
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.output.meshes import write_mesh
-from volfrep.spatial.resolve_crossings import Folds, folds_of, resolve_fold_crossings
+from volfrep.spatial.resolve_crossings import Folds, folds_of, look_at, resolve_fold_crossings
 from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.trim.finish import finish, refuse_merging, thinned, tidy
 from volfrep.trim.group_cut import rim_of
@@ -318,6 +319,13 @@ def test_facets_that_are_all_but_lines_go_where_they_cross():
     drawn, place = resolve_fold_crossings(mesh, monitor, True, turns)
     assert place is not None
     surface, apart, left = thinned(TrimmedSurface(mesh), turns, drawn, place, monitor, True)
+    # What its parts tell of a surface changes nothing, and is told of what is left, too.
+    every, step = np.zeros(0, np.int64), decimal_step(mesh.vertices)
+    looks = look_at(mesh, every, True, step, lambda rows: np.ones(len(rows), bool), monitor)
+    known = thinned(TrimmedSurface(mesh, looks=looks), turns, drawn, place, monitor, True)
+    assert np.array_equal(known[1].vertices, apart.vertices)
+    assert known[0].looks is not None
+    assert len(known[0].looks.marks) == len(apart.triangles)
     assert left is None
     assert not len(folds_of(apart, monitor, True).pairs)
     assert len(mesh.triangles) - 8 < len(apart.triangles) < len(mesh.triangles)

@@ -12,7 +12,7 @@ from ..measuring import Context, answer, bench_job, bracket, run
 from ..tables import Column, Row, bar, table
 
 #: L in mm; r = L / 10.
-SIZES, QUICK_SIZES = (10.0, 2.5), (5.0,)
+SIZES, QUICK_SIZES = (10.0, 2.5, 1.6), (5.0,)
 #: Workers whose time is measured, that of the fastest of some runs; and those that it is told for.
 MEASURED, TOLD, RUNS = 2, (4, 8, 16), 3
 #: Above this load, of all cores, other jobs take part in the time, and it is left out.

@@ -8,6 +8,7 @@ where activation ends. The paper's rule (centre inside) is `centre`.
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +16,10 @@ from numpy.typing import NDArray
 from ..mesh.triangle_mesh import TriangleMesh, corners_at
 from ..spatial.rays import inside_grid, inside_points
 from ..util.errors import VolfrepError
+from ..util.parallel import ParallelBackend
 from ..util.progress import Monitor
 from ..util.ragged import pairs_in_steps
-from ..util.types import Floats
+from ..util.types import Floats, Ints
 from .cell_grid import CellGrid
 from .coordinate_map import CoordinateMap, triangles_in_lattice
 
@@ -26,6 +28,8 @@ MAX_CELLS = 200_000_000
 _CENTRE = np.zeros((1, 3))
 #: A cell that overlaps the domain by less than this, in units of L, only touches it from outside.
 TOUCH_TOLERANCE = 1e-6
+#: Pairs of triangles and cells that may overlap, about, that a call looks at.
+CALL_PAIRS = 1 << 18
 
 
 def make_grid(
@@ -176,16 +180,38 @@ def crossed_cells(
     half = 0.5 * grid.cell_size * (1.0 + margin)
     pitch = grid.cell_size / half
     corners = (corners - grid.origin - 0.5 * grid.cell_size) / half
-    shape = np.array(grid.shape)
     first = np.ceil((corners.min(axis=1) - 1.0) / pitch).astype(np.int64)
     last = np.floor((corners.max(axis=1) + 1.0) / pitch).astype(np.int64)
-    first, last = np.maximum(first, 0), np.minimum(last, shape - 1)
+    first, last = np.maximum(first, 0), np.minimum(last, np.array(grid.shape) - 1)
     size = np.maximum(last - first + 1, 0)
-    counts = size.prod(axis=1)
-    total, done = max(int(counts.sum()), 1), 0
-    for owner, place in pairs_in_steps(counts):
-        monitor.tick(done / total)
-        done += len(owner)
+    total = np.cumsum(size.prod(axis=1))
+    near = int(total[-1]) if len(total) else 0
+    cuts = np.unique(np.searchsorted(total, np.arange(0, near, CALL_PAIRS), "right"))
+    backend = monitor.backend if near > CALL_PAIRS else ParallelBackend()
+    calls = (
+        (corners[start:stop], first[start:stop], size[start:stop], pitch, grid.shape)
+        for start, stop in pairwise([*cuts.tolist(), len(corners)])
+    )
+    for done, cells in enumerate(backend.starmap(_crossed_by, calls)):
+        crossed[cells] = True
+        monitor.tick((done + 1) / len(cuts))
+    return crossed.reshape(grid.shape)
+
+
+def _crossed_by(
+    corners: Floats, first: Ints, size: Ints, pitch: float, shape: tuple[int, int, int]
+) -> Ints:
+    """The cells that triangles overlap, by their places in the flat grid, ascending.
+
+    Args:
+        corners: (m, 3, 3) about the first cell's centre, in units of half a cell.
+        first: (m, 3) the lowest cell that each may overlap.
+        size: (m, 3) how many these are along each axis.
+        pitch: from cell to cell.
+        shape: of the grid.
+    """
+    crossed = np.zeros(np.prod(shape), bool)
+    for owner, place in pairs_in_steps(size.prod(axis=1)):
         box = size[owner]
         cell = first[owner] + np.stack(
             [
@@ -195,11 +221,11 @@ def crossed_cells(
             ],
             axis=1,
         )
-        index = np.ravel_multi_index(tuple(cell.T), grid.shape)
+        index = np.ravel_multi_index(tuple(cell.T), shape)
         open_pairs = np.flatnonzero(~crossed[index])
         owner, cell, index = owner[open_pairs], cell[open_pairs], index[open_pairs]
         crossed[index[_overlap_unit_box(corners[owner] - (cell * pitch)[:, None])]] = True
-    return crossed.reshape(grid.shape)
+    return np.flatnonzero(crossed)
 
 
 def _find_crossed_around(

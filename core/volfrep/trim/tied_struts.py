@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..grid.strut_graph import Wireframe
 from ..mesh.topology import pieces_of
@@ -188,6 +187,8 @@ def find_touching(
         (p, 2) struts; (p, 2) where on them their axes are nearest, as shares of their lengths;
         (p,) how near, mm.
     """
+    from scipy.spatial import cKDTree  # slow to import
+
     length = np.linalg.norm(end - start, axis=1)
     # Every strut as points no farther apart than its radius; those of all but the largest group
     # look for others near them.

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 import samples
-from volfrep.grid.activation import active_cells, make_grid
+from volfrep.grid.activation import active_cells, crossed_cells, make_grid
 from volfrep.grid.cell_grid import CellGrid
 from volfrep.mesh.triangle_mesh import concatenate
 from volfrep.spatial.rays import column_crossings, inside_grid, inside_points
@@ -96,6 +96,19 @@ def test_activation_agrees_with_monte_carlo(part, inside, size):
     assert not (centre & ~touching).any()
     assert (exact & ~centre).sum() <= 1  # a lonely cell is dropped
     assert (centre & ~exact).sum() == 0
+
+
+def test_cells_at_a_wall_are_the_same_of_many_calls(monkeypatch):
+    """A call looks at a few triangles of the wall, which lie in many cells."""
+    part = samples.bracket(turn=20.0)
+    low, high = part.bounds
+    grid = make_grid(np.array([low - 1.0, high + 1.0]), 0.9)
+    corners = part.vertices[part.triangles]
+    at_once = crossed_cells(grid, corners, Monitor())
+    monkeypatch.setattr("volfrep.grid.activation.CALL_PAIRS", 1_000)
+    np.testing.assert_array_equal(crossed_cells(grid, corners, Monitor()), at_once)
+    # Of its area there is one cell for every L^2, and two to three where it is tilted.
+    assert 1.0 < at_once.sum() * 0.9**2 / part.area < 3.0
 
 
 def test_a_lonely_cell_is_dropped_under_the_centre_rule():

@@ -7,7 +7,7 @@ What the parts come to is summed when they are joined, and what changes later is
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -131,6 +131,55 @@ def open_shells(mesh: TriangleMesh) -> OpenShells | None:
         shell.astype(np.min_scalar_type(uses.pieces)), volume, area, degenerate,
         len(mesh.triangles), len(mesh.vertices),
     )  # fmt: skip
+
+
+def quality_after_repair(
+    quality: Quality,
+    mesh: TriangleMesh,
+    repair: Repair,
+    beside: Ints,
+    bounds: Floats,
+    least: float,
+) -> Quality | None:
+    """The quality of a surface after a repair of its mesh, by a look at what changes only.
+
+    Args:
+        quality: of the surface as it was.
+        mesh: the part of it that is repaired; elsewhere it may go on.
+        repair: what changes.
+        beside: all triangles that stay and share a vertex with new ones.
+        bounds: (2, 3) of the surface as it is then, mm.
+        least: no shell of it enclosed less, mm3.
+
+    Returns:
+        None where those that come are not joined as those that went were, or a shell may have been
+        turned inside out.
+    """
+    rows = np.union1d(repair.old, beside)
+    used, local = np.unique(mesh.triangles[rows], return_inverse=True)
+    part = TriangleMesh(mesh.vertices[used], local.reshape(-1, 3).astype(np.int32))
+    small = Repair(
+        np.searchsorted(rows, repair.old), np.searchsorted(used, repair.piece).astype(np.int32),
+        repair.origin, repair.new, np.searchsorted(used, repair.moved), repair.places,
+        np.searchsorted(used, repair.unused),
+    )  # fmt: skip
+    before = open_shells(part)
+    after = before and before.repaired(part, small, np.searchsorted(rows, beside))
+    if before is None or after is None:
+        return None
+    more, vertices = after.triangles - before.triangles, after.vertices - before.vertices
+    swept = after.volume - before.volume
+    if more != 2 * vertices or not float(np.abs(swept).sum()) < least:  # a handle has gone, or that
+        return None
+    return replace(
+        quality,
+        triangles=quality.triangles + more,
+        vertices=quality.vertices + vertices,
+        degenerate_triangles=quality.degenerate_triangles + after.degenerate - before.degenerate,
+        volume=quality.volume + float(swept.sum()),
+        area=quality.area + after.area - before.area,
+        bounds=bounds,
+    )
 
 
 def joined_shells(

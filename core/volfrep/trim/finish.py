@@ -136,7 +136,13 @@ def finish(
         before = surface.mesh
         straight, place = resolve_fold_crossings(before, monitor, deformed, folded)
         if place is not None:
-            surface, straight, place = thinned(surface, folded, straight, place, monitor, deformed)
+            surface, straight, place, mended = thinned(
+                surface, folded, straight, place, monitor, deformed
+            )
+            if mended is not None:
+                before, least = surface.mesh, 0.5 * least  # the shells may have lost as much
+                found = mended.quality_after(quality, surface.bounds, least)
+                quality = surface.inspected(monitor).found.quality if found is None else found
         drawn = straight is not before
     if drawn:
         changed = surface.on(straight)
@@ -181,7 +187,7 @@ def thinned(
     place: Floats,
     monitor: Monitor,
     deformed: bool,
-) -> tuple[TrimmedSurface, TriangleMesh, Floats | None]:
+) -> tuple[TrimmedSurface, TriangleMesh, Floats | None, MendedSurface | None]:
     """A surface without the slivers about facets that cross, if nothing crosses then.
 
     Args:
@@ -193,7 +199,8 @@ def thinned(
         deformed: as of `finish`.
 
     Returns:
-        The surface; its mesh, drawn apart; and where that still crosses.
+        The surface; its mesh, drawn apart; where that still crosses; and what has gone from the
+        surface as it was, None for nothing.
     """
     precision, mesh = edge_within(surface.bounds), surface.mesh
     crossing = vertices_of(mesh.triangles[folded.pairs], len(mesh.vertices))
@@ -204,7 +211,8 @@ def thinned(
             continue
         fresh = vertices_of(repair.piece[repair.new], len(mesh.vertices))
         beside = np.flatnonzero(touching(fresh, mesh.triangles) & repair.stays(mesh))
-        changed = MendedSurface(surface, repair, beside).applied()
+        mended = MendedSurface(surface, repair, beside)
+        changed = mended.applied()
         if not changed.is_joined:
             continue
         new = np.pad(repair.new, (len(changed.mesh.triangles) - len(repair.new), 0))
@@ -216,8 +224,8 @@ def thinned(
         folded_now = folds_of(whole, monitor, deformed, new, changed.looks)
         apart, left = resolve_fold_crossings(whole, monitor, deformed, folded_now)
         if left is None:
-            return changed, apart, None
-    return surface, straight, place
+            return changed, apart, None, mended
+    return surface, straight, place, None
 
 
 def _with_octants_about(surface: TrimmedSurface, pairs: Ints, monitor: Monitor) -> TrimmedSurface:

@@ -8,9 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..mesh.float32_repair import NO_REPAIR, Repair
-from ..mesh.open_shells import OpenShells
+from ..mesh.open_shells import OpenShells, quality_after_repair
+from ..mesh.quality import Quality
 from ..util.progress import Monitor
-from ..util.types import Bools, Ints
+from ..util.types import Bools, Floats, Ints
 from .trimmed_surface import JoinedInspection, TrimmedSurface
 
 
@@ -38,6 +39,11 @@ class MendedSurface:
         if len(self.repair.old) and self.shells is None:
             raise ValueError("the shells of what the repair leaves are not known")
         return self.surface.inspected(monitor, self.shells)
+
+    def quality_after(self, quality: Quality, bounds: Floats, least: float) -> Quality | None:
+        """As of `quality_after_repair`."""
+        mesh, repair, beside = self.surface.mesh, self.repair, self.beside
+        return quality_after_repair(quality, mesh, repair, beside, bounds, least)
 
     def applied(self, goes: Bools | None = None, piece_goes: Bools | None = None) -> TrimmedSurface:
         """The surface that is left; the same one where nothing changes.

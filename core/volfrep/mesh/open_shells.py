@@ -84,18 +84,14 @@ class OpenShells:
         Returns:
             None where those that come are not joined as those that went were.
         """
+        if not keeps_border(mesh, repair, beside):
+            return None
         size, gone, fresh = len(mesh.vertices), repair.gone, repair.piece[repair.new]
         shell = self.shell[repair.old[repair.origin[repair.new]]]
         old, kept = mesh.triangles[gone], np.flatnonzero(~repair.new)
         kept = kept[touching(vertices_of(fresh, size), repair.piece[kept])]
         others = np.concatenate([mesh.triangles[beside], repair.piece[kept]])
-        border, was_border = _border(fresh, size), _border(old, size)
-        if border is None or was_border is None or not np.array_equal(border, was_border):
-            return None
-        # Where those that come meet each other they meet nothing else, and nowhere two shells.
-        inner = np.setdiff1d(_sides(fresh, size), border)
-        if np.isin(_sides(others, size), inner).any():
-            return None
+        # Nowhere do they meet two shells.
         rows = np.concatenate([beside, repair.old[repair.origin[kept]]])
         if not _agree(np.concatenate([others, fresh]), np.concatenate([self.shell[rows], shell])):
             return None
@@ -131,6 +127,25 @@ def open_shells(mesh: TriangleMesh) -> OpenShells | None:
         shell.astype(np.min_scalar_type(uses.pieces)), volume, area, degenerate,
         len(mesh.triangles), len(mesh.vertices),
     )  # fmt: skip
+
+
+def keeps_border(mesh: TriangleMesh, repair: Repair, beside: Ints) -> bool:
+    """Whether triangles that come are bounded by the very sides that those that go were.
+
+    And meet nothing else where they meet each other.
+
+    Args:
+        mesh: that is repaired.
+        repair: what changes.
+        beside: all triangles that stay and share a vertex with new ones.
+    """
+    size, fresh = len(mesh.vertices), repair.piece[repair.new]
+    border, was_border = _border(fresh, size), _border(mesh.triangles[repair.gone], size)
+    if border is None or was_border is None or not np.array_equal(border, was_border):
+        return False
+    others = np.concatenate([mesh.triangles[beside], repair.piece[~repair.new]])
+    inner = np.setdiff1d(_sides(fresh, size), border)
+    return not np.isin(_sides(others, size), inner).any()
 
 
 def quality_after_repair(

@@ -213,7 +213,7 @@ def thinned(
         beside = np.flatnonzero(touching(fresh, mesh.triangles) & repair.stays(mesh))
         mended = MendedSurface(surface, repair, beside)
         changed = mended.applied()
-        if not changed.is_joined:
+        if not (mended.is_joined_as_before or changed.is_joined):
             continue
         new = np.pad(repair.new, (len(changed.mesh.triangles) - len(repair.new), 0))
         if changed.octants is not None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..mesh.float32_repair import NO_REPAIR, Repair
-from ..mesh.open_shells import OpenShells, quality_after_repair
+from ..mesh.open_shells import OpenShells, keeps_border, quality_after_repair
 from ..mesh.quality import Quality
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
@@ -39,6 +39,20 @@ class MendedSurface:
         if len(self.repair.old) and self.shells is None:
             raise ValueError("the shells of what the repair leaves are not known")
         return self.surface.inspected(monitor, self.shells)
+
+    @property
+    def is_joined_as_before(self) -> bool:
+        """Whether the octants follow on what the repair leaves as they do on the surface.
+
+        False also where only a look at all of their rim would tell.
+        """
+        surface, repair = self.surface, self.repair
+        if surface.octants is None:
+            return True
+        elsewhere = np.concatenate([repair.moved, repair.unused])
+        if np.isin(elsewhere, surface.rows_about_rim).any():
+            return False
+        return keeps_border(surface.mesh, repair, self.beside)
 
     def quality_after(self, quality: Quality, bounds: Floats, least: float) -> Quality | None:
         """As of `quality_after_repair`."""

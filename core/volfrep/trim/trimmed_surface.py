@@ -228,6 +228,24 @@ class TrimmedSurface:
         return self._rim_rows
 
     @property
+    def rows_about_rim(self) -> Ints:
+        """The mesh's vertices at the octants' rim, and maybe others that octants have.
+
+        Raises:
+            RuntimeError: some of the rim are not there.
+        """
+        guess, known = self.rim_guess, self._inner.known
+        if guess is not None and known is not None and self._is_at(guess, known.points):
+            return guess  # of all that are known, so that nobody asks which are the rim's
+        return self.rim_rows
+
+    def _is_at(self, rows: Ints, points: Floats) -> bool:
+        """Whether rows of the mesh's vertices have the very same numbers as so many points."""
+        if len(rows) != len(points) or not (rows >= 0).all():
+            return False
+        return np.array_equal(np.take(self.mesh.vertices, rows, axis=0, mode="clip"), points)
+
+    @property
     def _inner(self) -> InnerOctants:
         if self.octants is None:
             raise RuntimeError("no octants are beside the mesh")
@@ -239,10 +257,8 @@ class TrimmedSurface:
         points, guess, known = self._inner.rim_points, self.rim_guess, self._inner.known
         if guess is not None and known is not None and len(guess) == len(known.numbers):
             guess = guess[self._inner.rim_in_known]
-        if guess is not None and len(guess) == len(points):
-            found = np.take(self.mesh.vertices, guess, axis=0, mode="clip")
-            if np.array_equal(found, points) and (guess >= 0).all():
-                return guess
+        if guess is not None and self._is_at(guess, points):
+            return guess
         return equal_rows(points, self.mesh.vertices)
 
     @cached_property

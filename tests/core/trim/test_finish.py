@@ -21,6 +21,7 @@ from volfrep.spatial.self_intersection import crossing_triangles
 from volfrep.trim.finish import finish, refuse_merging, thinned, tidy
 from volfrep.trim.group_cut import rim_of
 from volfrep.trim.loose_pieces import clear
+from volfrep.trim.mended_surface import MendedSurface
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import VolfrepError
 from volfrep.util.progress import Monitor
@@ -304,6 +305,29 @@ def test_octants_about_facets_that_cross_go_along_and_the_others_stay_beside(mon
     assert result.surface.is_joined
     assert result.report.watertight
     assert len(at_rim) == 1
+
+
+def moving(surface: TrimmedSurface, vertex: int) -> MendedSurface:
+    """A surface of which one vertex moves."""
+    triangles = surface.mesh.triangles
+    has = (triangles == vertex).any(axis=1)
+    old, row = np.flatnonzero(has), np.array([vertex])
+    beside = np.flatnonzero(np.isin(triangles, triangles[old]).any(axis=1) & ~has)
+    there, none = surface.mesh.vertices[row] + 1e-3, np.zeros(0, np.int64)
+    every = np.arange(len(old)), np.ones(len(old), bool)
+    return MendedSurface(surface, Repair(old, triangles[old], *every, row, there, none), beside)
+
+
+@pytest.mark.costly
+def test_a_surface_stays_joined_where_nothing_at_the_octants_rim_moves():
+    spec = LatticeSpec("Box", 6.0, 0.5, shell=1.0)
+    surface = fill(samples.box((36.0, 36.0, 36.0)), spec).surface
+    at_rim = surface.rim_rows
+    inner = np.setdiff1d(np.arange(len(surface.mesh.vertices)), at_rim)
+    for vertex, joined in ((at_rim[0], False), (inner[0], True)):
+        changed = moving(surface, int(vertex))
+        assert changed.is_joined_as_before == joined
+        assert changed.applied().is_joined == joined
 
 
 def test_facets_that_are_all_but_lines_go_where_they_cross():

@@ -40,21 +40,65 @@ def without_faults(
         needle: facets with an angle below this are needles, degrees; 0 for folds alone.
         monitor: for cancel.
     """
-    first = triangles = mesh.triangles.astype(np.int64)
+    triangles = mesh.triangles.astype(np.int64)
+    surface = _Facets(triangles, len(mesh.vertices))
+    # Points about which something is new: where nothing is, no move does what it did not before.
+    fresh, changed = np.ones(len(mesh.vertices), bool), False
     for _ in range(ROUNDS):
         found = TriangleMesh(mesh.vertices, triangles.astype(np.int32))
-        wrong = np.flatnonzero(folded_facets(found) | _needles(found, triangles, needle))
-        if not 0 < len(wrong) <= MOST:
+        wrong = folded_facets(found) | _needles(found, triangles, needle)
+        if wrong.sum() > MOST:
             break
-        before = triangles
-        for corners in triangles[wrong].tolist():
+        moved = []
+        for corners in triangles[wrong & fresh[triangles].any(axis=1)].tolist():
             monitor.tick()
-            triangles = _with_best_move(mesh, triangles, corners, tolerance, needle)
-        if triangles is before:
+            moved += _do_best_move(mesh, surface, corners, tolerance, needle)
+        if not moved:
             break
-    if triangles is first:
-        return mesh
-    return compact(TriangleMesh(mesh.vertices, triangles.astype(np.int32)))
+        fresh[:] = False
+        fresh[moved] = changed = True
+        triangles = surface.all
+    return compact(TriangleMesh(mesh.vertices, triangles.astype(np.int32))) if changed else mesh
+
+
+class _Facets:
+    """Facets that are replaced here and there, and those about each of `count` points."""
+
+    def __init__(self, triangles: Ints, count: int) -> None:
+        self._rows = triangles.copy()
+        own = np.repeat(np.arange(len(triangles)), 3)
+        self._begin, self._facet = remesh.grouped(triangles.ravel(), own, count)
+        #: Of points whose facets are others now.
+        self._changed: dict[int, list[int]] = {}
+
+    @property
+    def all(self) -> Ints:
+        """(m, 3) those that there are."""
+        result: Ints = self._rows[self._rows[:, 0] >= 0]
+        return result
+
+    def about(self, points: list[int]) -> tuple[list[int], Ints]:
+        """Rows of the facets that touch points, and their corners."""
+        rows = sorted({row for point in points for row in self._at(point)})
+        return rows, self._rows[rows]
+
+    def replace(self, rows: list[int], facets: Ints) -> None:
+        """Facets in place of at least as many others."""
+        around = np.unique(self._rows[rows]).tolist()
+        gone = set(rows)
+        others = {point: [row for row in self._at(point) if row not in gone] for point in around}
+        self._rows[rows] = -1
+        self._rows[rows[: len(facets)]] = facets
+        for row, corners in zip(rows, facets.tolist(), strict=False):
+            for point in corners:
+                others[point].append(row)
+        self._changed.update(others)
+
+    def _at(self, point: int) -> list[int]:
+        if point in self._changed:
+            return self._changed[point]
+        rows: list[int] = self._facet[self._begin[point] : self._begin[point + 1]].tolist()
+        return rows
 
 
 def _needles(mesh: TriangleMesh, triangles: Ints, needle: float) -> Bools:
@@ -62,27 +106,29 @@ def _needles(mesh: TriangleMesh, triangles: Ints, needle: float) -> Bools:
     return result
 
 
-def _with_best_move(
-    mesh: TriangleMesh, triangles: Ints, corners: list[int], tolerance: float, needle: float
-) -> Ints:
-    """The facets after the best move about one of them; as they are where none is better."""
-    touching = np.isin(triangles, corners).sum(axis=1)
-    if touching.max() < 3:
-        return triangles  # an earlier move took it
+def _do_best_move(
+    mesh: TriangleMesh, surface: _Facets, corners: list[int], tolerance: float, needle: float
+) -> list[int]:
+    """Do the best move about one of the facets: points about what changed; none where none is."""
+    _, touching = surface.about(corners)
+    if not (np.isin(touching, corners).sum(axis=1) == 3).any():
+        return []  # an earlier move took it
     # Two rings: what a move changes, and what lies beside that.
-    near = np.zeros(len(mesh.vertices), bool)
-    near[triangles[touching > 0]] = True
-    ring = near[triangles].any(axis=1)
-    part = triangles[ring]
+    rows, part = surface.about(np.unique(touching).tolist())
     least, best = _faults(mesh, part, needle), None
-    before = TriangleMesh(mesh.vertices, part.astype(np.int32))
+    before, crossing = TriangleMesh(mesh.vertices, part.astype(np.int32)), None
     for moved in _moves(part, corners):
         faults = _faults(mesh, moved, needle)
         if faults < least and _is_near(before, moved, tolerance):
             after = TriangleMesh(mesh.vertices, moved.astype(np.int32))
-            if _crossing(after) <= _crossing(before):
+            crossing = _crossing(before) if crossing is None else crossing
+            if _crossing(after) <= crossing:
                 least, best = faults, moved
-    return triangles if best is None else np.concatenate([triangles[~ring], best])
+    if best is None:
+        return []
+    surface.replace(rows, best)
+    around: list[int] = np.unique(part).tolist()
+    return around
 
 
 def _moves(part: Ints, corners: list[int]) -> Iterator[Ints]:

@@ -28,6 +28,7 @@ from ..mesh.triangle_mesh import TriangleMesh, compact, corners_at, triangle_box
 from ..spatial.self_intersection import meeting_boxes
 from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
+from ..util.parallel import ParallelBackend, SharedArray
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .culling import without_pinches
@@ -44,6 +45,8 @@ LONGEST_SIDE = 1.0
 BEYOND = 0.1373
 #: Boxes that are nearer than this count as touching, in octants.
 NEAR = 1e-6
+#: Triangles of the wall that octants at them are looked for at a time.
+CALL_TRIANGLES = 1 << 15
 
 
 @dataclass(frozen=True, eq=False)
@@ -266,7 +269,7 @@ def group_octants(
     edge = _edge(low, high)
     octant, count = _halve(places, _triangles(layout, places))
     fine = _split(boundary, LONGEST_SIDE * edge, *_bounds(low, high, octant, count))
-    touch = _touching(low, high, fine, NEAR * edge)
+    touch = _touching(low, high, fine, NEAR * edge, monitor.backend)
     return Groups(
         lattice, fine, places, low, high, octant,
         _owners(touch, octant, count, len(fine.triangles)), touch, count, precision,
@@ -358,10 +361,30 @@ def _split(mesh: TriangleMesh, longest: float, low: Floats, high: Floats) -> Tri
         some = np.concatenate([some, np.arange(before, len(triangles))])
 
 
-def _touching(low: Floats, high: Floats, boundary: TriangleMesh, near: float) -> Ints:
+def _touching(
+    low: Floats, high: Floats, boundary: TriangleMesh, near: float, backend: ParallelBackend
+) -> Ints:
     """(t, 2) boxes and triangles that touch, by their boxes and by the triangles' planes."""
-    corners = corners_at(boundary.vertices, boundary.triangles)
-    first, last = triangle_boxes(boundary.vertices.T, boundary.triangles.T)
+    count = len(boundary.triangles)
+    with backend.sharing(low, high, boundary.vertices, boundary.triangles) as shared:
+        calls = ((*shared, start, near) for start in range(0, count, CALL_TRIANGLES))
+        pairs = np.sort(np.concatenate(list(backend.starmap(_touched_by, calls))))
+    return np.stack(np.divmod(pairs, count), axis=1)
+
+
+def _touched_by(
+    low_of: SharedArray,
+    high_of: SharedArray,
+    vertices: SharedArray,
+    triangles: SharedArray,
+    start: int,
+    near: float,
+) -> Ints:
+    """As `_touching`, of so many triangles: each pair in one number."""
+    low, high = low_of.array, high_of.array
+    some = triangles.array[start : start + CALL_TRIANGLES]
+    corners = corners_at(vertices.array, some)
+    first, last = triangle_boxes(vertices.array.T, some.T)
     a, b = meeting_boxes(low, high, first.T - near, last.T + near, float((high - low).max()))
     # Axis by axis, which numpy takes in faster than rows of three.
     normal = np.ascontiguousarray(remesh.normals(corners).T)
@@ -372,8 +395,8 @@ def _touching(low: Floats, high: Floats, boundary: TriangleMesh, near: float) ->
         above += (middle[axis].take(a) - corners[:, 0, axis].take(b)) * along
         reach += half[axis].take(a) * np.abs(along)
     meets = np.abs(above) <= reach
-    pairs = np.sort(a[meets] * np.int64(len(corners)) + b[meets])
-    return np.stack(np.divmod(pairs, len(corners)), axis=1)
+    found: Ints = a[meets] * np.int64(len(triangles.array)) + b[meets] + start
+    return found
 
 
 def _owners(touch: Ints, octant: Ints, count: int, triangles: int) -> Ints:

@@ -34,6 +34,7 @@ from volfrep.trim.placed_lattice import in_place, prove
 from volfrep.trim.seams import NotCertain
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import Cancelled
+from volfrep.util.parallel import ParallelBackend
 from volfrep.util.progress import Monitor
 from volfrep.util.threads import use_threads
 
@@ -198,6 +199,24 @@ def test_the_trimmed_lattice_has_the_genus_of_a_boolean_by_others():
     )
     whole = solid ^ ball
     assert ours.volume == pytest.approx(whole.volume(), rel=1e-6)
+
+
+def test_triangles_of_a_wall_touch_the_boxes_that_hold_their_middles(monkeypatch):
+    """However many of them are looked at at a time."""
+    ball, size = samples.sphere(22.0), 3.0
+    places = np.stack(np.unravel_index(np.arange(16**3), (16, 16, 16)), axis=1)
+    low = size * (places - 8.0)
+    given = low, low + size, ball, 1e-6, ParallelBackend()
+    at_once = octant_groups._touching(*given)
+    monkeypatch.setattr(octant_groups, "CALL_TRIANGLES", 300)
+    np.testing.assert_array_equal(octant_groups._touching(*given), at_once)
+    middle = ball.vertices[ball.triangles].mean(axis=1)
+    box = np.ravel_multi_index(tuple(np.floor(middle / size + 8.0).astype(int).T), (16, 16, 16))
+    held = set(zip(box.tolist(), range(len(box)), strict=True))
+    assert held <= set(map(tuple, at_once.tolist()))
+    # None is farther than half of its diagonal and a triangle's size.
+    farthest = np.linalg.norm(low[at_once[:, 0]] + 0.5 * size - middle[at_once[:, 1]], axis=1)
+    assert farthest.max() < 0.5 * np.sqrt(3.0) * size + 2.0
 
 
 @pytest.fixture

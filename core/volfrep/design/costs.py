@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a job takes for each cell, strut, triangle and bend: seconds on two cores, bytes, facets.
 
-Measured on two cores of 2020s servers. `forecast` adds them up before a job, `memory_guard` refuses
+Measured on two cores of 2020s servers, which differ by a factor of two from hour to hour: seconds
+of a fill lie between what two idle cores take and what it takes of one processor. `forecast` adds them up before a job, `memory_guard` refuses
 by them; what meshing one cell takes is its kind's (`kinds`), and what a file takes stands beside
 its writer and is added up by `reports/estimate`.
 """
@@ -12,8 +13,9 @@ SEAM_TRIANGLES = 1.4
 #: The skin's wall is looked for where the surface bends (`skin_bends`): seconds, bytes and facets
 #: for each bend; and finer where the room between two skins is narrow (`narrow_gaps`). Of 17 parts
 #: with a skin of a hundredth of their length, of CVC and of Octet, time and memory are within a
-#: factor of two.
-SECONDS_PER_BEND = 1.1e-3
+#: factor of two. Seconds of a processor are 1.8 to 2.7e-3 for each bend of seven parts of 3,000 to
+#: 28,000 facets, 3.4e-3 of a housing of 92,000.
+SECONDS_PER_BEND = 1.6e-3
 BYTES_PER_BEND = 5.5e4
 FACETS_PER_BEND = 9.0
 SECONDS_PER_NARROW = 4e-5
@@ -21,13 +23,14 @@ BYTES_PER_NARROW = 2.2e3
 #: Of a thin skin whose faces are moved (`skins/plane_faces`) for each body that its wall is cut
 #: with. Of a sheet, a plate of needles, a rod, an aerofoil and a block with pockets of balls told
 #: over taken is 0.7 to 1.6 for seconds; 55 to 280 facets were made a body of sheet and plate.
-SECONDS_PER_BODY = 4e-3
+SECONDS_PER_BODY = 5.8e-3
 BYTES_PER_BODY = 1e5
 FACETS_PER_BODY = 100.0
-#: Fixed cost, s; per triangle of the octants at the wall, s; of the part; of a block; and of one
-#: that is written as it is laid, of 35 to 307 million triangles 0.5 to 1.3e-7.
-SECONDS = 0.5
-SECONDS_PER_CUT_TRIANGLE = 3.3e-6
+#: Fixed cost, s; per triangle of the octants at the wall, s (of a processor 4.3 to 6.3e-6 in sheets
+#: and plates of CVC, FCC and Octet, 6 to 8e-6 in the GE bracket); of the part; of a block; and of
+#: one that is written as it is laid, of 35 to 307 million triangles 0.5 to 1.3e-7.
+SECONDS = 1.0
+SECONDS_PER_CUT_TRIANGLE = 4.2e-6
 SECONDS_PER_TRIANGLE = 2.3e-7
 SECONDS_PER_BLOCK_TRIANGLE = 4e-7
 SECONDS_PER_STREAMED_TRIANGLE = 9e-8

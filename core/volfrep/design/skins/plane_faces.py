@@ -21,7 +21,7 @@ from .. import costs
 
 #: Faces are moved where cubes would take longer, and more seconds than this; and no more than so
 #: many bodies, of no more triangles.
-SLOW = 1.5
+SLOW = 2.18
 MOST_BODIES = 3000
 MOST_TRIANGLES = 20_000
 #: Vertices of one face lie off its plane by no more than this, in thicknesses, and facets that are

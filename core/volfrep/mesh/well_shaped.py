@@ -55,7 +55,7 @@ FEW = 0.005
 FLIPS = 3
 #: Rounds of all three moves at most, and so many in succession that leave no fewer bad facets than
 #: there were: splitting needs some before it helps.
-ROUNDS = 24
+ROUNDS = 40
 IN_VAIN = 4
 #: Rings of facets about bad ones that may change.
 RINGS = 3

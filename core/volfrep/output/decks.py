@@ -9,7 +9,12 @@ from ..fem.beam_mesh import beam_model, fitted_beams
 from ..fem.deck import write_beams, write_tetrahedra
 from ..fem.joint_loads import side_joints
 from ..fem.tet_mesh import nodes_on, tetrahedra
-from ..reports.estimate import Estimate, estimate_beams, estimate_tetrahedra
+from ..reports.estimate import (
+    Estimate,
+    estimate_beams,
+    estimate_lattice_tetrahedra,
+    estimate_tetrahedra,
+)
 from ..trim.beam_model import deformed_struts
 from .writer import Settings, Source, Writer, Written
 
@@ -44,7 +49,11 @@ class TetrahedraWriter(Writer):
     def write(self, source: Source, path: str | os.PathLike[str], settings: Settings) -> Written:
         """As of `Writer`."""
         settings.tell(self.estimate(source))
-        filled = tetrahedra(source.mesh, source.monitor)
+
+        def tell(count: int) -> None:
+            settings.tell(estimate_lattice_tetrahedra(count))
+
+        filled = tetrahedra(source.mesh, source.monitor, tell)
         sides, outside, sets = source.sides, source.outside, {}
         if sides is not None:
             sets = side_joints(filled, sides)

@@ -16,10 +16,13 @@ from ..design.spec import LatticeSpec
 from ..fem.beam_mesh import BeamMesh
 from ..fem.deck import BYTES_PER_BEAM, SOLVE_SECONDS_PER_BEAM, WRITE_SECONDS_PER_BEAM
 from ..fem.tet_mesh import (
+    BYTES_PER_LATTICE_TETRAHEDRON,
     BYTES_PER_TRIANGLE,
     ELEMENTS_PER_TRIANGLE,
+    NODES_PER_LATTICE_TETRAHEDRON,
     NODES_PER_TRIANGLE,
     SECONDS_PER_CUT_TRIANGLE,
+    SECONDS_PER_LATTICE_TETRAHEDRON,
     SECONDS_PER_TRIANGLE,
 )
 from ..fem.tet_mesh import MAX_TRIANGLES as MAX_TETRAHEDRA_TRIANGLES
@@ -230,6 +233,16 @@ def estimate_tetrahedra(triangles: int, asked: ExportChoice | None = None) -> Es
     is_cut = asked is not None and asked.count is None
     seconds = (SECONDS_PER_CUT_TRIANGLE if is_cut else SECONDS_PER_TRIANGLE) * triangles
     return Estimate(what, seconds, 1e-6 * BYTES_PER_TRIANGLE * triangles)
+
+
+def estimate_lattice_tetrahedra(count: int) -> Estimate:
+    """So many second-order tetrahedra of a lattice, for what Gmsh cannot fill."""
+    what = (
+        f"Gmsh cannot fill it: about {count:,} tetrahedra of a lattice instead, "
+        f"{NODES_PER_LATTICE_TETRAHEDRON * count:,.0f} nodes"
+    )
+    seconds = SECONDS_PER_LATTICE_TETRAHEDRON * count
+    return Estimate(what, seconds, 1e-6 * BYTES_PER_LATTICE_TETRAHEDRON * count)
 
 
 def _coarser(asked: ExportChoice | None, excess: float) -> str:

@@ -111,20 +111,23 @@ def test_what_gmsh_cannot_fill():
         filled_by_gmsh(crossing)
 
 
-def from_lattice(monkeypatch, mesh: TriangleMesh, count: int = 20_000) -> TetrahedralMesh:
+def from_lattice(
+    monkeypatch, mesh: TriangleMesh, count: int = 20_000, tell=lambda _: None
+) -> TetrahedralMesh:
     def refuse(*_):
         raise CannotFill("Gmsh cannot fill it.")
 
     monkeypatch.setattr(tet_mesh, "filled_by_gmsh", refuse)
     monkeypatch.setattr(tet_mesh, "LATTICE_TETRAHEDRA", (count,))
     monkeypatch.setattr(tet_mesh, "_median_edge", lambda _: 0.0)
-    return tetrahedra(mesh)
+    return tetrahedra(mesh, tell=tell)
 
 
 def test_what_gmsh_cannot_fill_is_filled_from_a_lattice(monkeypatch):
     spec = LatticeSpec(cell="CVC", cell_size=10, strut_radius=1)
-    mesh = block(spec, (1, 1, 1)).mesh
-    filled = from_lattice(monkeypatch, mesh, 60_000)
+    mesh, told = block(spec, (1, 1, 1)).mesh, []
+    filled = from_lattice(monkeypatch, mesh, 60_000, told.append)
+    assert told == [60_000]
     assert 50_000 < len(filled.elements) < 75_000
     assert shapes(filled).min() > 0.15
     assert filled.volumes().sum() == pytest.approx(mesh.volume, rel=0.02)
@@ -133,7 +136,7 @@ def test_what_gmsh_cannot_fill_is_filled_from_a_lattice(monkeypatch):
     for node, (a, b) in enumerate(((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)), 4):
         middle = filled.nodes[corners[:, [a, b]]].mean(axis=1)
         assert np.abs(filled.nodes[filled.elements[:, node]] - middle).max() < 1e-12
-    # What is told of it: no point of the mesh is farther away.
+    # What is told of it: no point of either surface is farther away.
     (sentence,) = filled.warnings
     assert f"from a lattice of {filled.lattice:.3g} mm" in sentence
     assert f"within {filled.away[0]:.2g} mm" in sentence
@@ -141,6 +144,16 @@ def test_what_gmsh_cannot_fill_is_filled_from_a_lattice(monkeypatch):
     outside = tet_mesh.outer_nodes(filled)
     apart = cKDTree(filled.nodes[outside]).query(mesh.vertices)[0]
     assert (apart < 0.5 * filled.lattice).all()
+
+
+def test_surfaces_are_as_far_apart_as_the_farthest_place_of_either():
+    """A spike that only one of them has is told from either side."""
+    box = samples.box((10.0, 10.0, 10.0))
+    spiked = TriangleMesh(box.vertices.copy(), box.triangles)
+    top = int(np.argmax(box.vertices.sum(axis=1)))
+    spiked.vertices[top] += 2.0
+    for one, other in ((box, spiked), (spiked, box)):
+        assert tet_mesh._apart(one, other, 0.5)[0] == pytest.approx(2.0 * 3**0.5)
 
 
 def test_a_lattice_that_loses_or_joins_too_much_is_refused(monkeypatch):

@@ -17,6 +17,7 @@ from volfrep.reports.estimate import (
     estimate_beams,
     estimate_exact,
     estimate_faceted,
+    estimate_lattice_tetrahedra,
     estimate_tetrahedra,
 )
 from volfrep.util.errors import VolfrepError
@@ -49,6 +50,12 @@ def test_tetrahedra_of_a_part_take_longer_as_the_needles_of_its_cut_are_mended()
     part, free = (estimate_tetrahedra(50_000, ExportChoice(SPEC, n)) for n in (None, (2, 2, 2)))
     assert (part.seconds, free.seconds) == pytest.approx((50.0, 20.0))
     assert part.what == free.what
+
+
+def test_what_gmsh_cannot_fill_is_told_anew():
+    found = estimate_lattice_tetrahedra(400_000)
+    assert "400,000 tetrahedra of a lattice instead, 700,000 nodes" in found.what
+    assert 20.0 < found.seconds < 60.0
 
 
 def test_where_no_resolution_is_coarse_enough_there_must_be_fewer_cells():

@@ -23,6 +23,8 @@ from .triangle_mesh import TriangleMesh
 
 #: Triangles whose edges are counted at once: what that takes does not grow with the mesh then.
 BLOCK_TRIANGLES = 1 << 17
+#: Vertices chosen at one place are among so few of all that follow each other.
+NARROW = 0.05
 #: A use of an edge from its lower to its higher end, and one the other way, in one sum of both.
 AHEAD, BACK = 1, 1 << 32
 #: Vertices per block in `pinched_vertices`.
@@ -60,9 +62,16 @@ def corners_among(chosen: Bools, triangles: NDArray[Any]) -> NDArray[np.int8]:
 
 def touching(chosen: Bools, triangles: NDArray[Any]) -> Bools:
     """(m,) which triangles have a corner among the chosen vertices, (n,) bool."""
+    rows = np.flatnonzero(chosen)
+    first, last = (int(rows[0]), int(rows[-1])) if len(rows) else (0, -1)
 
     def block(start: int) -> Bools:
         part = triangles[start : start + BLOCK_TRIANGLES]
+        if last - first < NARROW * len(chosen):  # few vertices lie between: the others are not read
+            result, corners = np.zeros(len(part), bool), part.ravel()
+            near = np.flatnonzero((corners >= first) & (corners <= last))
+            result[near[chosen[corners[near]]] // 3] = True
+            return result
         a, b, c = (chosen.take(part[:, k], mode="clip") for k in range(3))
         return np.asarray(a | b | c, np.bool_)
 

@@ -334,16 +334,15 @@ class _Places:
     @classmethod
     def around(cls, mesh: TriangleMesh, pairs: Ints, among: Bools, monitor: Monitor) -> _Places:
         """With triangles among the chosen or beside them, and all that may move."""
-        near, corners = np.zeros(len(mesh.vertices), bool), np.ascontiguousarray(mesh.triangles.T)
-        near[mesh.triangles[pairs]] = True
+        near = vertices_of(mesh.triangles[pairs], len(mesh.vertices))
         for _ in range(MOST_RINGS):
-            near[mesh.triangles[touching(near, corners.T)]] = True
+            near[mesh.triangles[touching(near, mesh.triangles)]] = True
         near[mesh.triangles[among]] = True
-        inside = touching(near, corners.T)
+        inside = touching(near, mesh.triangles)
         rows = np.flatnonzero(inside)
         # What else has a corner there holds that, and is little beside the rest of the mesh.
         there = vertices_of(mesh.triangles[rows], len(near))
-        ring = touching(there, corners.T) & ~inside
+        ring = touching(there, mesh.triangles) & ~inside
         return cls(
             mesh, rows, pairs, there & ~vertices_of(mesh.triangles[ring], len(near)), monitor
         )

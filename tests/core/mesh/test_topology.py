@@ -86,6 +86,16 @@ def test_pieces_are_the_same_with_scipys_graphs_and_without(count, pairs, monkey
     assert lowest == sorted(lowest), "numbered by their first things"
 
 
+@pytest.mark.parametrize("chosen", [[], [7], [300, 310, 321], [0, 200, 641]])
+def test_triangles_touch_chosen_vertices_that_lie_together_or_anywhere(chosen, monkeypatch):
+    monkeypatch.setattr(topology, "BLOCK_TRIANGLES", 300)
+    mesh = samples.sphere(10.0, 3)
+    among = np.zeros(len(mesh.vertices), bool)
+    among[chosen] = True
+    expected = np.isin(mesh.triangles, chosen).any(axis=1)
+    np.testing.assert_array_equal(topology.touching(among, mesh.triangles), expected)
+
+
 @pytest.mark.costly
 def test_processes_count_the_edges_that_threads_do(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(topology, "BLOCK_TRIANGLES", 300)

@@ -31,7 +31,7 @@ from ..util.types import Bools, Floats, Ints
 from .facet_grading import grade_facets, side_lengths
 from .folds import folded_facets
 from .single_moves import without_faults
-from .stuffed_mesh import bodies_of, face_pairs, signed_volumes, stuffed_mesh
+from .stuffed_mesh import FACES, bodies_of, face_pairs, signed_volumes, stuffed_mesh
 
 #: A solver needs about 50 kB for each of these: more are not a job for tetrahedra.
 MAX_TRIANGLES = 200_000
@@ -58,6 +58,8 @@ GMSH_TRIES = 1
 #: what is told for all, and at least so many seconds; what it has filled is taken as it is then.
 PATIENCE = 3.0
 LEAST_PATIENCE = 120.0
+#: Tetrahedra with less than this of a regular one's shape are flat: 12 (3 V)^(2/3) / sum of l^2.
+FLAT = 1e-3
 #: No edge is split into pieces shorter than this part of it.
 SHORTEST = 0.25
 #: Seconds, nodes, elements and bytes of the deck per triangle, each within a factor of two of what
@@ -322,9 +324,45 @@ def _run_gmsh(
             return said, None
         for file in (improved, filled):
             if file.is_file() and (read := _read(file.read_bytes())) is not None:
-                nodes, elements = _second_order(*read)
+                points, corners = read
+                nodes, elements = _second_order(points, without_flat(points, corners))
                 return said, TetrahedralMesh(nodes, elements, improved=file is improved)
         return said, None
+
+
+def without_flat(points: Floats, corners: Ints) -> Ints:
+    """Tetrahedra (m, 4) without those that lie flat on the surface, with two or three faces in it.
+
+    Gmsh makes them of needles in a plane. Nothing but they is at the edge of those two faces: the
+    other two take their place, unless these would meet at an edge that the surface has already.
+    Of three the fourth takes the place, and the point where they meet goes.
+    """
+    edges = points[corners[:, _EDGES[:, 0]]] - points[corners[:, _EDGES[:, 1]]]
+    volume = np.abs(signed_volumes(points, corners))
+    flat = 12.0 * np.cbrt(3.0 * volume) ** 2 < FLAT * np.einsum("ijk,ijk->i", edges, edges)
+    pairs, outside = face_pairs(corners)
+    shared = np.bincount(pairs.ravel(), minlength=len(corners))
+    rows = np.flatnonzero(flat & (shared == 2))
+    names = np.sort(corners[rows][:, FACES], axis=2) @ _powers(len(points), 3)
+    is_outer = np.isin(names, np.sort(outside, axis=1) @ _powers(len(points), 3))
+    # Opposite to its faces in the surface are the ends of the edge at which the new ones meet.
+    ends = np.sort(corners[rows][is_outer].reshape(-1, 2), axis=1) @ _powers(len(points), 2)
+    sides = np.sort(np.stack([outside, np.roll(outside, 1, axis=1)], axis=2), axis=2)
+    known = np.isin(ends, sides @ _powers(len(points), 2))
+    _, first, uses = np.unique(ends, return_index=True, return_counts=True)
+    once = np.zeros(len(rows), bool)
+    once[first[uses == 1]] = True
+    stays = np.ones(len(corners), bool)
+    stays[rows[~known & once]] = False
+    stays[flat & (shared == 1)] = False
+    result: Ints = corners[stays]
+    return result
+
+
+def _powers(count: int, size: int) -> Ints:
+    """What rows of numbers below `count` are multiplied with, to name them."""
+    powers: Ints = np.int64(count) ** np.arange(size)
+    return powers
 
 
 def _intersection(said: str) -> Floats | None:

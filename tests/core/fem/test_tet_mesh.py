@@ -337,6 +337,21 @@ def test_without_an_end_of_improving_the_tetrahedra_stay_as_they_are(monkeypatch
             filled_by_gmsh(box)
 
 
+def test_a_flat_tetrahedron_on_the_surface_goes():
+    """Two below it have its other two faces; with an edge between these it has to stay."""
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1e-9], [0.5, 0.5, -1]])
+    below, flat = [[0, 1, 3, 4], [1, 2, 3, 4]], [0, 1, 2, 3]
+    assert tet_mesh.without_flat(points, np.array([*below, flat])).tolist() == below
+    assert len(tet_mesh.without_flat(points, np.array(below))) == 2
+    cap = np.array([[0, 1, 2, 4], [0, 2, 1, 3]])
+    on_top = points * 1.0
+    on_top[3] = (0.7, 0.3, 1e-9)
+    assert tet_mesh.without_flat(on_top, cap).tolist() == [[0, 1, 2, 4]]
+    above = [*below, flat, [1, 3, 5, 6]]
+    more = np.concatenate([points, [[0.5, 0.5, 1], [0, 0, 1]]])
+    assert len(tet_mesh.without_flat(more, np.array(above))) == 4
+
+
 @needs_gmsh
 def test_bodies_that_do_not_touch():
     one, two = samples.box((4.0, 4.0, 4.0)), samples.box((4.0, 4.0, 4.0), (9.0, 0.0, 0.0))

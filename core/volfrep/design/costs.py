@@ -2,9 +2,9 @@
 """What a job takes for each cell, strut, triangle and bend: seconds on two cores, bytes, facets.
 
 Measured on two cores of 2020s servers, which differ by a factor of two from hour to hour: seconds
-of a fill lie between what two idle cores take and what it takes of one processor. `forecast` adds them up before a job, `memory_guard` refuses
-by them; what meshing one cell takes is its kind's (`kinds`), and what a file takes stands beside
-its writer and is added up by `reports/estimate`.
+of a fill lie between what two idle cores take and what it takes of one processor. `forecast` adds
+them up before a job, `memory_guard` refuses by them; what meshing one cell takes is its kind's
+(`kinds`), and what a file takes stands beside its writer and is added up by `reports/estimate`.
 """
 
 #: What the cut adds lies along the seam: as many triangles as the lattice has in a layer at the

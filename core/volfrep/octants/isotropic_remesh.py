@@ -66,9 +66,12 @@ def remesh_evenly(
     if not len(raw.triangles):
         return raw, origin
     settled = _settle_on_edges(raw)
-    surface = _relax(project(settled), border=True, passes=2)
-    surface = _sharpen_border(_hold_on_edges(surface))
-    surface = proper_border(settled, _relax(surface, border=True, passes=3))
+    # Proper step by step: a vertex of a crease in a narrow corner of a face would return with all
+    # its steps, and the border would pass the crease by.
+    surface = proper_border(settled, _relax(project(settled), border=True, passes=2))
+    surface = _hold_on_edges(surface)
+    surface = proper_border(surface, _sharpen_border(surface))
+    surface = proper_border(surface, _relax(surface, border=True, passes=3))
     if gently:
         return _relax(surface), origin
     for _ in range(3):

@@ -58,6 +58,13 @@ def test_facets_keep_the_deviation_at_the_outside_of_a_block(name, pattern):
     assert far.max() < 1.5 * OctantSpec(10.0, 1.0, 0.0, 15).deviation
 
 
+def test_a_narrow_corner_of_a_face_keeps_the_crease_in_it():
+    """Between thick struts that meet on a face: 9.5 deviations where the border passes it by."""
+    octant = octant_of("FCC", 15, radius=1.3)
+    far, _ = facet_deviations("FCC", octant, radius=1.3)
+    assert far.max() < 1.5 * OctantSpec(10.0, 1.3, 0.0, 15).deviation
+
+
 def test_facets_are_divided_round_a_strut_whose_vertices_are_all_lifted():
     """Marching cubes gives the Tesseract's inner struts eight facets round, one too few."""
     key = OctantKey(0, 1)

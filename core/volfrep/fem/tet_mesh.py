@@ -19,8 +19,9 @@ import numpy as np
 from ..mesh.brep import TOLERANCE as LEAST_LENGTH
 from ..mesh.brep import FacetedBrep, faceted_brep
 from ..mesh.remesh import normals
+from ..mesh.topology import edge_keys
 from ..mesh.triangle_mesh import TriangleMesh, compact
-from ..mesh.well_shaped import Tolerance, angles_of, mend_bad_facets
+from ..mesh.well_shaped import Tolerance, angles_of, mend_bad_facets, names
 from ..process.child import Limits, OverLimit
 from ..process.programs import run_program
 from ..spatial.proximity import closest_points, sample_triangles
@@ -294,9 +295,9 @@ def _second_order(points: Floats, corners: Ints) -> tuple[Floats, Ints]:
     """Nodes and elements with a node in the middle of each edge; points that none uses go."""
     used, corners = np.unique(corners, return_inverse=True)
     points, corners = points[used], corners.reshape(-1, 4)
-    ends = np.sort(corners[:, _EDGES], axis=2) @ np.array([len(points), 1])
-    names, row = np.unique(ends, return_inverse=True)
-    one, two = np.divmod(names, len(points))
+    ends = edge_keys(corners[:, _EDGES[:, 0]], corners[:, _EDGES[:, 1]], len(points))
+    keys, row = np.unique(ends, return_inverse=True)
+    one, two = np.divmod(keys, len(points))
     nodes = np.concatenate([points, 0.5 * (points[one] + points[two])])
     return nodes, np.concatenate([corners, len(points) + row.reshape(-1, 6)], axis=1)
 
@@ -343,12 +344,13 @@ def without_flat(points: Floats, corners: Ints) -> Ints:
     pairs, outside = face_pairs(corners)
     shared = np.bincount(pairs.ravel(), minlength=len(corners))
     rows = np.flatnonzero(flat & (shared == 2))
-    names = np.sort(corners[rows][:, FACES], axis=2) @ _powers(len(points), 3)
-    is_outer = np.isin(names, np.sort(outside, axis=1) @ _powers(len(points), 3))
+    count = len(points)
+    faces = names(corners[rows][:, FACES].reshape(-1, 3), count).reshape(-1, len(FACES))
+    is_outer = np.isin(faces, names(outside, count))
     # Opposite to its faces in the surface are the ends of the edge at which the new ones meet.
-    ends = np.sort(corners[rows][is_outer].reshape(-1, 2), axis=1) @ _powers(len(points), 2)
-    sides = np.sort(np.stack([outside, np.roll(outside, 1, axis=1)], axis=2), axis=2)
-    known = np.isin(ends, sides @ _powers(len(points), 2))
+    one, two = corners[rows][is_outer].reshape(-1, 2).T
+    ends = edge_keys(one, two, count)
+    known = np.isin(ends, edge_keys(outside, np.roll(outside, 1, axis=1), count))
     _, first, uses = np.unique(ends, return_index=True, return_counts=True)
     once = np.zeros(len(rows), bool)
     once[first[uses == 1]] = True
@@ -357,12 +359,6 @@ def without_flat(points: Floats, corners: Ints) -> Ints:
     stays[flat & (shared == 1)] = False
     result: Ints = corners[stays]
     return result
-
-
-def _powers(count: int, size: int) -> Ints:
-    """What rows of numbers below `count` are multiplied with, to name them."""
-    powers: Ints = np.int64(count) ** np.arange(size)
-    return powers
 
 
 def _intersection(said: str) -> Floats | None:

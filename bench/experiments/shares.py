@@ -11,10 +11,10 @@ from ..in_process import SHELL
 from ..measuring import Context, answer, bench_job, bracket, run
 from ..tables import Column, Row, bar, table
 
-#: L in mm; r = L / 10.
-SIZES, QUICK_SIZES = (10.0, 2.5, 1.6), (5.0,)
-#: Workers whose time is measured, that of the fastest of some runs; and those that it is told for.
-MEASURED, TOLD, RUNS = 2, (4, 8, 16), 3
+#: Of each L in mm (r = L / 10) how many runs, whose fastest counts: long ones vary little.
+RUNS, QUICK_RUNS = {10.0: 3, 2.5: 3, 1.6: 1}, {5.0: 1}
+#: Workers whose time is measured, and those that it is told for.
+MEASURED, TOLD = 2, (4, 8, 16)
 #: Above this load, of all cores, other jobs take part in the time, and it is left out.
 BUSY = 0.5
 #: How much one thread may do alone; by how much the measured time may exceed the expected one.
@@ -23,16 +23,17 @@ BAR_ALONE, BAR_EXPECTED = 0.12, 1.2
 
 def measure(context: Context) -> dict[str, Any]:
     """One size after the other."""
-    rows = [_shares(context, size) for size in (QUICK_SIZES if context.quick else SIZES)]
+    sizes = QUICK_RUNS if context.quick else RUNS
+    rows = [_shares(context, size, runs) for size, runs in sizes.items()]
     return {"rows": rows, "bars": _bars(rows)}
 
 
-def _shares(context: Context, size: float) -> Row:
+def _shares(context: Context, size: float, repeated: int) -> Row:
     row: Row = {"size": size}
     out = context.folder / "shared.stl"
     job = bench_job("shares", str(bracket()), "CVC", f"{size:g}", str(MEASURED), str(out))
     is_idle = os.getloadavg()[0] <= BUSY * (os.cpu_count() or 1)
-    runs = [run(job) for _ in range(1 if context.quick else RUNS)]
+    runs = [run(job) for _ in range(repeated)]
     failed = next((done.failure for done in runs if done.failure), None)
     if failed:
         return context.say({**row, "note": failed, "failed": True})
@@ -82,7 +83,7 @@ def render(result: dict[str, Any], images: Path) -> str:
     )
     return f"""## What more cores bring
 
-The GE bracket, CVC, r = L / 10, skin of {SHELL:g} mm, with {MEASURED} workers, the fastest of {RUNS} runs: shares of all processors' seconds, then seconds on so many cores (measured on an idle machine only). By Amdahl's law nobody shares what the main process's first thread computes, and n cores, each with a worker, divide the rest by n.
+The GE bracket, CVC, r = L / 10, skin of {SHELL:g} mm, with {MEASURED} workers, the fastest of up to {max(RUNS.values())} runs: shares of all processors' seconds, then seconds on so many cores (measured on an idle machine only). By Amdahl's law nobody shares what the main process's first thread computes, and n cores, each with a worker, divide the rest by n.
 
 {table(columns, result["rows"])}
 """

@@ -55,10 +55,12 @@ NEAR = 1.0
 TOUCHING = 1e-7
 #: What Gmsh finds to intersect is mended less in a next try, so many times.
 GMSH_TRIES = 1
-#: Gmsh improves what it has filled, which does not end with a few meshes: it may take so many times
-#: what is told for all, and at least so many seconds; what it has filled is taken as it is then.
+#: Gmsh improves what it has filled, which does not end with a few meshes: of a processor it may
+#: take so many times what is told for all, at least so many seconds; what it has filled is taken as
+#: it is then. On a machine that is busy with others this may take so many times as long.
 PATIENCE = 3.0
 LEAST_PATIENCE = 120.0
+BUSY = 20.0
 #: Tetrahedra with less than this of a regular one's shape are flat: 12 (3 V)^(2/3) / sum of l^2.
 FLAT = 1e-3
 #: No edge is split into pieces shorter than this part of it.
@@ -316,10 +318,12 @@ def _run_gmsh(
         (folder / "surface.msh").write_bytes(_surface(surface, brep.shell))
         (folder / "fill.geo").write_text(_GEO % _volumes(brep), encoding="ascii")
         command = [program, "fill.geo", "-parse_and_exit", "-v", "2"]
+        limits = Limits(BUSY * patience, processor_seconds=patience)
         try:
-            said = run_program(command, folder, monitor, limits=Limits(patience)).stdout
-        except OverLimit:
-            said = f"it came to no end within {patience:.0f} s"
+            said = run_program(command, folder, monitor, limits=limits).stdout
+        except OverLimit as over:
+            most = limits.seconds if over.what == "time" else patience
+            said = f"it came to no end within {most:.0f} s of {over.what}"
         improved, filled = folder / "improved.msh", folder / "filled.msh"
         if "Error" in said:
             return said, None

@@ -30,10 +30,10 @@ T = TypeVar("T")
 NO_WINDOW: int = getattr(subprocess, "CREATE_NO_WINDOW", 0)
 #: A program with a shell of its session that waits for the end of standard input, and then ends
 #: the session. It is no child of the program's, which may wait for its children.
-_SHELL = (
-    'exec 3<&0 </dev/null; ((read -r _ <&3; kill -9 0) >/dev/null 2>&1 &); exec "$@" 3<&-',
-    "volfrep",
-)
+_SHELL = 'exec 3<&0 </dev/null; ((read -r _ <&3; kill -9 0) >/dev/null 2>&1 &); exec "$@" 3<&-'
+#: Before it: at so many seconds of a processor the system ends the program, without a core file; a
+#: lower limit of the user stays.
+_LIMIT = "{{ ulimit -S -c 0; ulimit -S -t {}; }} 2>/dev/null; "
 _IS_WINDOWS = os.name == "nt"
 
 
@@ -43,6 +43,8 @@ class Limits:
 
     Attributes:
         seconds: of time, for a call or a program's run; None for no limit.
+        processor_seconds: for a program's run, however many others there are beside it; None for
+            no limit. Windows has no such limit.
         memory_gb: of resident memory; None for no limit.
         threads: for it to use; 0 for one on each core.
     """
@@ -50,6 +52,7 @@ class Limits:
     seconds: float | None = None
     memory_gb: float | None = None
     threads: int = 0
+    processor_seconds: float | None = None
 
     @property
     def any(self) -> bool:
@@ -65,7 +68,10 @@ NO_LIMITS = Limits()
 
 
 class OverLimit(Exception):
-    """A process took more than its limits, and was ended. `what` is "time" or "memory"."""
+    """A process took more than its limits, and was ended.
+
+    `what` is "time", "processor time" or "memory".
+    """
 
     def __init__(self, what: str) -> None:
         super().__init__(what)
@@ -77,7 +83,8 @@ class Child:
 
     Args:
         command: the program and its arguments.
-        limits: the threads that it is told; `guarded` sees to time and memory.
+        limits: the threads that it is told, and its processor seconds where it does not speak;
+            `guarded` sees to time and memory.
         folder: where it runs; None for where this process does.
         environment: its variables; None for this process's.
         speaks: whether this process writes to its standard input, and it ends when that closes.
@@ -98,9 +105,11 @@ class Child:
         errors: int | IO[bytes] = subprocess.STDOUT,
     ) -> None:
         shell = not speaks and not _IS_WINDOWS
+        most = limits.processor_seconds
+        script = _SHELL if most is None else _LIMIT.format(math.ceil(most)) + _SHELL
         variables = os.environ if environment is None else environment
         self._process = subprocess.Popen(
-            ["/bin/sh", "-c", *_SHELL, *command] if shell else list(command),
+            ["/bin/sh", "-c", script, "volfrep", *command] if shell else list(command),
             cwd=folder,
             env={**variables, **limits.environment()},
             stdin=subprocess.PIPE if speaks or shell else subprocess.DEVNULL,

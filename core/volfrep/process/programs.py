@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..util.progress import Monitor
-from .child import NO_LIMITS, Child, Limits
+from .child import NO_LIMITS, Child, Limits, OverLimit
 
 #: FreeCAD without windows, as it is called on the PATH; Windows adds `.exe` by itself.
 FREECAD = ("freecadcmd", "FreeCADCmd", "freecad.cmd")
@@ -71,5 +72,7 @@ def run_program(
         raise
     finally:
         code, _ = child.wait()
+    if limits.processor_seconds is not None and code == -getattr(signal, "SIGXCPU", 0):
+        raise OverLimit("processor time")
     text = said.decode(errors="replace").replace(os.linesep, "\n")
     return subprocess.CompletedProcess(list(command), code, text)

@@ -324,7 +324,7 @@ def test_without_an_end_of_improving_the_tetrahedra_stay_as_they_are(monkeypatch
         (folder / "improved.msh").write_bytes((folder / "improved.msh").read_bytes()[:-9])
         if not is_filled:
             (folder / "filled.msh").unlink()
-        raise OverLimit("time")
+        raise OverLimit("processor time")
 
     monkeypatch.setattr(tet_mesh, "run_program", impatient)
     box = samples.box((4.0, 4.0, 4.0))
@@ -333,7 +333,7 @@ def test_without_an_end_of_improving_the_tetrahedra_stay_as_they_are(monkeypatch
         assert filled.volumes().sum() == pytest.approx(64)
         assert "Gmsh came to no end" in filled.warnings[0]
     else:
-        with pytest.raises(CannotFill, match=r"no end within 120 s.*beams"):
+        with pytest.raises(CannotFill, match=r"no end within 120 s of processor time.*beams"):
             filled_by_gmsh(box)
 
 

@@ -60,6 +60,15 @@ def test_a_program_that_takes_too_long_is_ended(tmp_path: Path):
     assert not grows(tmp_path / "on")
 
 
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such limit")
+def test_processor_seconds_pass_only_while_a_program_works(tmp_path: Path):
+    limits = Limits(seconds=60.0, processor_seconds=1.0)
+    assert run_program(["sleep", "1.2"], tmp_path, limits=limits).returncode == 0
+    with pytest.raises(OverLimit, match="processor time"):
+        run_program(["sh", "-c", "while :; do :; done"], tmp_path, limits=limits)
+    assert not list(tmp_path.iterdir())
+
+
 #: A program that starts another one, and leaves both numbers.
 FAMILY = """
 import os, subprocess, sys, time

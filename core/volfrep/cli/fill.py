@@ -38,8 +38,10 @@ if TYPE_CHECKING:
     from ..reports.printability import PrintReport
     from ..reports.report import Report
 
-#: Fewer triangles than these are cut in this process: others take longer to start.
-WORTH_WORKERS = 1_000_000
+#: Every so many triangles are worth a process that helps to make them.
+WORTH_WORKER = 150_000
+#: Where what workers are given lies.
+MODULES = "volfrep.trim.octant_groups", "volfrep.io.write.stl", "scipy.spatial"
 
 
 @contextmanager
@@ -47,23 +49,26 @@ def _workers(options: FillOptions, triangles: int) -> Iterator[Executor | None]:
     """Those that the options ask for; where they do not, as many as so many triangles are worth."""
     from ..process.cluster import dask_workers
     from ..process.pool import processes
+    from ..util.threads import threads
 
     if options.scheduler is not None:
         with dask_workers(options.scheduler) as executor:
             yield executor
         return
-    count, module = options.workers, ""
+    count = options.workers
     if count == 1:
         from concurrent.futures import ThreadPoolExecutor
 
         with ThreadPoolExecutor(1) as executor:  # groups one after the other
             yield executor
         return
-    if triangles >= WORTH_WORKERS:  # they start while this process looks for the wall
-        module = "volfrep.trim.group_cut"
-    elif count is None:
-        count = 1
-    with processes(count, module, _warn_lost) as executor:
+    # They start while this process goes on.
+    worth = 1 + triangles // WORTH_WORKER
+    modules = MODULES if worth > 1 else ()
+    is_automatic = count is None
+    if count is None:
+        count = min(threads(), worth)
+    with processes(count, modules, _warn_lost, with_this=is_automatic) as executor:
         yield executor
 
 

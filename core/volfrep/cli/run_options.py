@@ -648,8 +648,8 @@ RUN_OPTIONS = (
     ),
     RunOption(
         "workers", ("fill",),
-        "processes that cut the lattice at the wall (default: one a core; this one alone for "
-        "fewer than about 1,000,000 triangles); the file is the same with any number",
+        "processes that cut the lattice at the wall (default: this one, and one more for every "
+        "150,000 triangles, at most one a core); the file is the same with any number",
         "N", read=int, either="who works",
     ),
     RunOption(

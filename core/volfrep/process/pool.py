@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from queue import SimpleQueue
@@ -25,6 +25,14 @@ T = TypeVar("T")
 MOST_LOST = 8
 
 
+class _ThisProcess:
+    """Makes calls in the place of a worker."""
+
+    def answer(self, call: Call) -> Any:
+        """As a worker does."""
+        return call.here()
+
+
 class WorkerPool(ThreadPoolExecutor):
     """An executor of workers. One that dies costs its call, and another one takes its place.
 
@@ -33,19 +41,31 @@ class WorkerPool(ThreadPoolExecutor):
         count: how many; those of a program that is to be warm start now, while this process does
             something else, others when they are needed.
         lost: called, on any thread, with how a worker has ended.
+        with_this: this process makes calls as well, on a thread: one for each worker that is
+            ready, and one more. The workers start now.
     """
 
     def __init__(
-        self, program: Program, count: int, lost: Callable[[Ending], None] = lambda _: None
+        self,
+        program: Program,
+        count: int,
+        lost: Callable[[Ending], None] = lambda _: None,
+        *,
+        with_this: bool = False,
     ) -> None:
-        super().__init__(count, "volfrep-worker")
+        super().__init__(count + with_this, "volfrep-worker")
         self._program, self._lost, self._losses = program, lost, 0
         self._changing = threading.Lock()
         self._is_open = True
         self.workers: list[Worker] = []
-        self._idle: SimpleQueue[Worker | None] = SimpleQueue()
+        self._idle: SimpleQueue[Worker | _ThisProcess | None] = SimpleQueue()
         for _ in range(count):
-            self._idle.put(self._started() if program.warm else None)
+            if with_this:  # whose thread goes on while they start
+                super().submit(self._greeted, self._started())
+            else:
+                self._idle.put(self._started() if program.warm else None)
+        if with_this:
+            self._idle.put(_ThisProcess())
 
     @property
     def is_open(self) -> bool:
@@ -61,6 +81,10 @@ class WorkerPool(ThreadPoolExecutor):
         if self._losses >= MOST_LOST:
             raise BrokenExecutor("its workers end again and again")
         return super().submit(self._made, Call(function, given, named, has_progress=False))
+
+    def _greeted(self, worker: Worker) -> None:
+        worker.greets()
+        self._idle.put(worker)
 
     def _made(self, call: Call) -> Any:
         worker = self._idle.get()  # there are as many as threads
@@ -101,15 +125,20 @@ class WorkerPool(ThreadPoolExecutor):
 
 @contextmanager
 def processes(
-    count: int | None = None, module: str = "", lost: Callable[[Ending], None] = lambda _: None
+    count: int | None = None,
+    modules: Sequence[str] = (),
+    lost: Callable[[Ending], None] = lambda _: None,
+    *,
+    with_this: bool = False,
 ) -> Iterator[Executor | None]:
     """An executor of so many processes; None where that is one.
 
     Args:
         count: of the processes; None for as many as `threads` says.
-        module: where what they will be given lies: they import it at once, while this process does
-            something else. Empty: they import it when they are first given something.
+        modules: where what they will be given lies: they import them at once, while this process
+            does something else. None: they import it when they are first given something.
         lost: told, on any thread, how a process has ended that should not have.
+        with_this: this process is one of them, so that one less is started.
 
     Raises:
         VolfrepError: fewer than one is wanted.
@@ -121,7 +150,7 @@ def processes(
         yield None
         return
     each = max(1, threads() // count)
-    pool = WorkerPool(this_python(each, *filter(None, (module,))), count, lost)
+    pool = WorkerPool(this_python(each, *modules), count - with_this, lost, with_this=with_this)
     try:
         yield pool
     finally:

@@ -464,6 +464,10 @@ class SurfaceIndex:
         return closest, np.sqrt(squared), triangle, on_edge
 
 
+#: Those that this process has made and shares.
+_opened: dict[SharedIndex, SurfaceIndex] = {}
+
+
 @dataclass(frozen=True)
 class SharedIndex:
     """A `SurfaceIndex` for other processes, which make its tree anew; attributes as of that."""
@@ -483,12 +487,17 @@ def sharing_index(index: SurfaceIndex, backend: ParallelBackend) -> Iterator[Sha
         return
     arrays = index.corners, index.across, index.tree.data, index.triangle_of_sample
     with backend.sharing(*arrays) as (corners, across, samples, triangles):
-        yield SharedIndex(corners, across, samples, triangles, index.spacing)
+        shared = SharedIndex(corners, across, samples, triangles, index.spacing)
+        _opened[shared] = index  # for calls that this process makes itself
+        try:
+            yield shared
+        finally:
+            del _opened[shared]
 
 
 def near_shared(shared: SharedIndex, points: Floats) -> tuple[Floats, Floats]:
     """As `SurfaceIndex.near`."""
-    return _open_index(shared).near(points)
+    return (_opened.get(shared) or _open_index(shared)).near(points)
 
 
 @lru_cache(maxsize=1)

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -30,6 +31,7 @@ from volfrep.mesh.quality import measure
 from volfrep.process import cluster as dask
 from volfrep.process import pool
 from volfrep.trim import boolean_trim, octant_groups
+from volfrep.util import threads
 
 LATTICE = ["--cell", "CVC", "--cell-size", "8", "--strut-radius", "0.8"]
 fill = partial(command.fill, LATTICE)
@@ -63,18 +65,19 @@ def test_the_file_is_the_same_with_any_number_of_workers(tmp_path: Path, part: P
 def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
     tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    asked: list[tuple[int | None, str]] = []
+    asked: list[tuple[int, Sequence[str], bool]] = []
 
-    def nobody(count: int | None = None, module: str = "", lost: object = None) -> NoReturn:
-        asked.append((count, module))
+    def nobody(count: int, modules: Sequence[str], lost: object, *, with_this: bool) -> NoReturn:
+        asked.append((count, modules, with_this))
         raise VolfrepError("Nobody is there.")
 
     monkeypatch.setattr(pool, "processes", nobody)
-    for least, given in ((10**9, ()), (10**9, ("--workers", 3)), (1, ()), (1, ("--workers", 3))):
-        monkeypatch.setattr(volfrep.cli.fill, "WORTH_WORKERS", least)
+    monkeypatch.setattr(threads, "_wanted", 5)
+    for worth, given in ((10**9, ()), (10**9, ("--workers", 3)), (1, ()), (1, ("--workers", 3))):
+        monkeypatch.setattr(volfrep.cli.fill, "WORTH_WORKER", worth)
         assert fill(part, tmp_path / "out.stl", "--quiet", "--cell-size", 12, *given) == 2
-    module = "volfrep.trim.group_cut"
-    assert asked == [(1, ""), (3, ""), (None, module), (3, module)]
+    modules = volfrep.cli.fill.MODULES
+    assert asked == [(1, (), True), (3, (), False), (5, modules, True), (3, modules, False)]
 
 
 @pytest.mark.costly
@@ -86,7 +89,7 @@ def test_as_many_workers_as_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> No
         assert pool.at_once(executor) == 5
     with pytest.raises(VolfrepError, match="At least 1 worker"), pool.processes(0):
         pass
-    with pool.processes(2, "volfrep.trim.group_cut") as executor:
+    with pool.processes(2, ["volfrep.trim.group_cut"]) as executor:
         assert isinstance(executor, pool.WorkerPool)
         assert len(executor.workers) == 2, "both start at once"
         assert "volfrep.trim.group_cut" in executor.submit(_modules).result(), "before it is asked"

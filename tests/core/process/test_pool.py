@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
 import time
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
 from pathlib import Path
@@ -14,7 +15,8 @@ import pytest
 
 from volfrep.process import pool
 from volfrep.process.pool import WorkerPool, processes
-from volfrep.process.worker import Ending, WorkerLost, this_python
+from volfrep.process.worker import Ending, Worker, WorkerLost, this_python
+from volfrep.util.errors import VolfrepError
 
 HERE = Path(__file__).parent
 
@@ -33,6 +35,26 @@ def test_calls_run_in_other_processes_side_by_side(ended: list[Ending]) -> None:
         numbers |= {future.result() for future in some}
         assert len(numbers) == 2
         assert os.getpid() not in numbers
+    assert not ended
+
+
+def test_this_process_makes_calls_too_and_waits_for_no_worker_that_starts(
+    ended: list[Ending], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ready, greets = threading.Event(), Worker.greets
+    monkeypatch.setattr(Worker, "greets", lambda self: ready.wait(600.0) and greets(self))
+    with processes(2, lost=ended.append, with_this=True) as workers:
+        assert workers is not None
+        assert pool.at_once(workers) == 2
+        made = [workers.submit(os.getpid) for _ in range(4)]
+        numbers = {future.result() for future in made}
+        assert numbers == {os.getpid()}
+        ready.set()
+        while len(numbers) < 2:
+            made = [workers.submit(calls.number_after, 0.1) for _ in range(2)]
+            numbers |= {future.result() for future in made}
+        with pytest.raises(VolfrepError, match="No paper"):
+            workers.submit(calls.refuse, "No paper.").result()
     assert not ended
 
 

@@ -10,7 +10,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -22,16 +24,17 @@ from ..mesh.open_shells import OpenShells, joined_shells
 from ..mesh.topology import corners_among, pieces_of, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, rows_where
 from ..process.cluster import Watch
-from ..process.pool import at_once
+from ..process.pool import at_once, backend_of
 from ..spatial.rays import inside_points
 from ..spatial.resolve_crossings import Looks
 from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
+from ..util.parallel import SharedValue
 from ..util.progress import POLL_SECONDS, Monitor
 from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
 from .culling import KeptOctants, without_pinches
-from .group_cut import Group, Piece, cut_group, read_runs
+from .group_cut import Piece, cut_group, read_runs
 from .octant_groups import Groups, group_octants
 from .placed_lattice import InnerOctants, PlacedLattice, Proof, prove
 from .trimmed_surface import TrimmedSurface, concatenated_at, equal_rows, hash_points
@@ -41,6 +44,8 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+#: Makes a piece; keyword ``monitor`` for cancel.
+Cut = Callable[..., Piece]
 #: Is told octants inside.
 Ahead = Callable[[InnerOctants], None]
 #: Vertices of two groups are the same within this part of the shortest edge that files hold.
@@ -166,18 +171,45 @@ def _cut(
 ) -> dict[int, Piece]:
     """What the Boolean leaves of some of the groups."""
     found: dict[int, Piece] = {}
-    for closed in (False, True):  # few are not certain where the wall is open, mostly none
-        given = groups.each(which, cavity, monitor, closed=closed)
-        found.update(_cut_each(given, len(which), executor, monitor))
+    if groups.count > 1:  # few are not certain where the wall is open, mostly none
+        with _open_cuts(groups, which, cavity, executor) as cuts:
+            found.update(_cut_each(cuts, len(which), executor, monitor))
         which = np.array([k for k in which if found[k].needs_solid], np.int64)
         if not len(which):
-            break
+            return found
         monitor.count("groups cut again at a solid wall", len(which))
+    solids = groups.with_solids(which, cavity, monitor)
+    given = ((k, partial(cut_group, group)) for k, group in solids)
+    found.update(_cut_each(given, len(which), executor, monitor))
     return found
 
 
+@contextmanager
+def _open_cuts(
+    groups: Groups, which: Ints, cavity: bool, executor: Executor | None
+) -> Iterator[Iterator[tuple[int, Cut]]]:
+    """Cuts of numbered groups at open walls; each group is made where it is cut.
+
+    For processes of other machines it is made here.
+    """
+    if not (executor is None or isinstance(executor, ThreadPoolExecutor)):
+        yield ((int(k), partial(cut_group, groups.group(int(k), cavity))) for k in which)
+        return
+    backend = backend_of(executor if len(which) > 1 else None)
+    given = groups.to_share() if backend.uses_processes else groups
+    with backend.sharing_value(given) as shared:
+        yield ((int(k), partial(cut_one, shared, int(k), cavity)) for k in which)
+
+
+def cut_one(
+    groups: SharedValue[Groups], number: int, cavity: bool, monitor: Monitor | None = None
+) -> Piece:
+    """As `cut_group`, of one of several groups that calls share."""
+    return cut_group(groups.value.group(number, cavity), monitor)
+
+
 def _cut_each(
-    groups: Iterator[tuple[int, Group]], count: int, executor: Executor | None, monitor: Monitor
+    cuts: Iterator[tuple[int, Cut]], count: int, executor: Executor | None, monitor: Monitor
 ) -> Iterator[tuple[int, Piece]]:
     """What the Boolean leaves of numbered groups, in their order."""
     own = None
@@ -186,37 +218,37 @@ def _cut_each(
     elif executor is None and threads() > 1:
         executor = own = ThreadPoolExecutor(threads())
     try:
-        yield from _cut_with(groups, count, executor, monitor)
+        yield from _cut_with(cuts, count, executor, monitor)
     finally:
         if own is not None:  # after a cancel it does not wait for the groups that were begun
             own.shutdown(wait=False, cancel_futures=True)
 
 
 def _cut_with(
-    groups: Iterator[tuple[int, Group]], count: int, executor: Executor | None, monitor: Monitor
+    cuts: Iterator[tuple[int, Cut]], count: int, executor: Executor | None, monitor: Monitor
 ) -> Iterator[tuple[int, Piece]]:
     """As `_cut_each`, with this executor; None: here."""
-    ahead: deque[tuple[int, Group, Future[Piece] | None]] = deque()
+    ahead: deque[tuple[int, Cut, Future[Piece] | None]] = deque()
     watch = Watch(executor)
     for done in range(count):
         piece = None
         # Some groups ahead, so that no worker waits; not all, so that they take no memory.
         while executor is not None and len(ahead) < 2 * at_once(executor):
-            following = next(groups, None)
+            following = next(cuts, None)
             if following is None:
                 break
             try:
-                ahead.append((*following, executor.submit(cut_group, following[1])))
+                ahead.append((*following, executor.submit(following[1])))
             except RuntimeError:  # it takes nothing more, as when a process of it was killed
                 executor = None
                 ahead.append((*following, None))
         if ahead:
-            number, group, future = ahead.popleft()
+            number, cut, future = ahead.popleft()
             piece = None if future is None else _await_piece(future, watch, monitor)
         else:
-            number, group = next(groups)
+            number, cut = next(cuts)
         if piece is None:
-            piece = cut_group(group, monitor)
+            piece = cut(monitor=monitor)
         for name, amount in piece.work.items():
             monitor.count(name, amount)
         monitor.tick(0.1 + 0.8 * (done + 1) / count)

@@ -13,7 +13,7 @@ along.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -94,14 +94,37 @@ class Groups:
         return _sort_groups(self.octant, self.count)
 
     @cached_property
-    def _by_triangle(self) -> tuple[Ints, Ints]:
-        """What touches, by the triangle's group."""
-        return _sort_groups(self.triangle[self.touch[:, 1]], self.count)
+    def _touched(self) -> tuple[Ints, Ints]:
+        """The octants that the wall of each group touches, by the group."""
+        order, first = _sort_groups(self.triangle[self.touch[:, 1]], self.count)
+        return self.touch[order, 0], first
 
     @cached_property
-    def _by_octant(self) -> tuple[Ints, Ints]:
-        """What touches, by the octant's group."""
-        return _sort_groups(self.octant[self.touch[:, 0]], self.count)
+    def _walls(self) -> Floats:
+        """(count, 2, 3) boxes about each group's part of the wall and what cuts its octants, mm.
+
+        All of a triangle of the wall goes in where an octant is cut by it: a part of it would be
+        divided otherwise.
+        """
+        owner = np.concatenate([self.triangle, self.octant[self.touch[:, 0]]])
+        every = np.concatenate([np.arange(len(self.triangle)), self.touch[:, 1]])
+        order, first = _sort_groups(owner, self.count)
+        every, first = every[order[first[0] :]], first - first[0]
+        result = np.tile([[np.inf], [-np.inf]], (self.count, 1, 3))
+        some = first[1:] > first[:-1]
+        for end, corner in enumerate(self._triangle_boxes):
+            least = np.maximum if end else np.minimum
+            for axis, along in enumerate(corner):
+                result[some, end, axis] = least.reduceat(along[every], first[:-1][some])
+        return result
+
+    def to_share(self) -> Groups:
+        """The same for other processes, which ask for a `group` only: what that takes is found."""
+        for found in ("_of_group", "_touched", "_walls", "_triangle_boxes", "_row", "_beyond"):
+            getattr(self, found)
+        shared = replace(self, lattice=self.lattice.to_cut(), touch=self.touch[:0])
+        shared.__dict__.update({k: v for k, v in self.__dict__.items() if k.startswith("_")})
+        return shared
 
     @property
     def untouched(self) -> Piece:
@@ -111,80 +134,66 @@ class Groups:
         shells = open_shells(mesh)
         return Piece(mesh, np.ones(len(triangles), bool), rim_of(mesh), shells=shells)
 
-    def each(
-        self, which: Ints, cavity: bool, monitor: Monitor, *, closed: bool = False
+    def group(self, number: int, cavity: bool) -> Group:
+        """One of several groups, with all of the wall that reaches into the box about it.
+
+        Args:
+            number: of the group.
+            cavity: as of a `Group`.
+        """
+        octants = self._octants(number)
+        low, high = self._box(number, octants)
+        (least, most), some = self._triangle_boxes, np.arange(len(self.triangle))
+        for axis in range(3):
+            meets = (least[axis].take(some) <= high[axis]) & (most[axis].take(some) >= low[axis])
+            some = some[meets]
+        used, local = np.unique(self.boundary.triangles[some], return_inverse=True)
+        near = TriangleMesh(self.boundary.vertices[used], local.reshape(-1, 3).astype(np.int32))
+        return self._made(number, octants, near, self.triangle[some] == number, cavity)
+
+    def with_solids(
+        self, which: Ints, cavity: bool, monitor: Monitor
     ) -> Iterator[tuple[int, Group]]:
-        """Some of the groups with their numbers, in any order, each made when its turn comes.
+        """Some groups with their numbers, in any order, whose walls are solids.
 
         Args:
             which: of the groups.
             cavity: as of a `Group`.
             monitor: for cancel.
-            closed: whether their walls are to be solids; that of the only group is one.
 
         Raises:
             VolfrepError: the wall is not a solid that can be cut.
         """
-        alone = self.count == 1
         octants = [self._octants(group) for group in which]
-        if alone:
-            whole = self.boundary, np.ones(len(self.boundary.triangles), bool)
-            boundaries = iter([(0, *whole)])
+        if self.count == 1:
+            boundaries = iter([(0, self.boundary, np.ones(len(self.boundary.triangles), bool))])
         else:
             owned = [np.flatnonzero(self.triangle == group) for group in which]
-            # All of a triangle of the wall goes in where an octant is cut by it: a part of it would
-            # be divided otherwise.
-            boxes = np.array([self._box(*each) for each in zip(which, octants, owned, strict=True)])
-            if closed:
-                boundaries = _solids_near(self.boundary, boxes, owned, monitor)
-            else:
-                boundaries = self._walls_near(which, boxes, monitor)
-        going = self.lattice.kept.border | self.lattice.kept.inside
-        for k, boundary, own_boundary in boundaries:
-            group, rows = int(which[k]), octants[k]
-            placed, box = self.lattice.cutting(self.places[rows])
-            low = np.array([part.start or 0 for part in box])
-            mine = np.zeros(placed.layout.grid.kind.shape, bool)
-            mine[tuple((self.places[_of(self._of_group, group)] - low).T)] = True
-            every = placed.layout.grid.kind >= 0
-            follow = going[box] & ~every
-            made = Group(
-                placed,
-                mine,
-                every & ~mine,
-                follow,
-                boundary,
-                own_boundary,
-                cavity,
-                alone,
-                closed or alone,
-                self.precision,
-            )
-            yield group, made
+            boxes = np.array([self._box(*each) for each in zip(which, octants, strict=True)])
+            boundaries = _solids_near(self.boundary, boxes, owned, monitor)
+        for k, boundary, own in boundaries:
+            yield int(which[k]), self._made(int(which[k]), octants[k], boundary, own, cavity, True)
 
-    def _walls_near(
-        self, which: Ints, boxes: Floats, monitor: Monitor
-    ) -> Iterator[tuple[int, TriangleMesh, Bools]]:
-        """The triangles of the wall that reach into (k, 2, 3) boxes, and which are the groups'.
-
-        Each with its row, in any order.
-        """
-        low, high = self._triangle_boxes
-        # Halves of what is left of the wall, so that each look is at a small part.
-        waiting = [(np.arange(low.shape[1]), np.arange(len(boxes)))]
-        while waiting:
-            some, rows = waiting.pop()
-            least, most = boxes[rows, 0].min(axis=0), boxes[rows, 1].max(axis=0)
-            for axis in range(3):
-                meets = (low[axis][some] <= most[axis]) & (high[axis][some] >= least[axis])
-                some = some[meets]
-            if len(rows) > 1:
-                waiting += [(some, half) for half in _halves(boxes, rows)]
-                continue
-            used, local = np.unique(self.boundary.triangles[some], return_inverse=True)
-            near = TriangleMesh(self.boundary.vertices[used], local.reshape(-1, 3).astype(np.int32))
-            monitor.tick()
-            yield int(rows[0]), near, self.triangle[some] == which[rows[0]]
+    def _made(
+        self,
+        number: int,
+        octants: Ints,
+        boundary: TriangleMesh,
+        own_boundary: Bools,
+        cavity: bool,
+        closed: bool = False,
+    ) -> Group:
+        """A group of some rows of octants, those of others among them."""
+        placed, box = self.lattice.cutting(self.places[octants])
+        low = np.array([part.start or 0 for part in box])
+        mine = np.zeros(placed.layout.grid.kind.shape, bool)
+        mine[tuple((self.places[_of(self._of_group, number)] - low).T)] = True
+        every = placed.layout.grid.kind >= 0
+        follow = (self.lattice.kept.border[box] | self.lattice.kept.inside[box]) & ~every
+        return Group(
+            placed, mine, every & ~mine, follow, boundary, own_boundary, cavity,
+            alone=self.count == 1, closed=closed, precision=self.precision,
+        )  # fmt: skip
 
     @cached_property
     def _row(self) -> NDArray[np.int32]:
@@ -211,7 +220,7 @@ class Groups:
         if self.count == 1:
             return np.arange(len(self.places))
         own = _of(self._of_group, group)
-        places = self.places[np.concatenate([own, self.touch[_of(self._by_triangle, group), 0]])]
+        places = self.places[np.concatenate([own, _of(self._touched, group)])]
         border, periodic = self.lattice.kept.border, self.lattice.layout.grid.periodic
         low, high = places.min(axis=0), places.max(axis=0) + 1
         low, high = np.maximum(low - 1, 0), np.minimum(high + 1, border.shape)
@@ -224,20 +233,19 @@ class Groups:
         rows: Ints = self._row[box][mask].astype(np.int64)
         return rows
 
-    def _box(self, group: int, octants: Ints, triangles: Ints) -> Floats:
+    def _box(self, group: int, octants: Ints) -> Floats:
         """(2, 3) about a group's octants, its part of the wall and what cuts its own octants."""
-        every = np.concatenate([triangles, self.touch[_of(self._by_octant, group), 1]])
-        low, high = (
-            np.concatenate([mine[octants], wall[:, every].T])
-            for mine, wall in zip((self.low, self.high), self._triangle_boxes, strict=True)
-        )
-        return np.array([low.min(axis=0) - self._beyond, high.max(axis=0) + self._beyond])
+        low = np.minimum(self._walls[group, 0], self.low[octants].min(axis=0))
+        high = np.maximum(self._walls[group, 1], self.high[octants].max(axis=0))
+        return np.array([low - self._beyond, high + self._beyond])
 
 
 def _sort_groups(group: Ints, count: int) -> tuple[Ints, Ints]:
     """The rows of groups one after the other, and where each group's begin, (count + 1,)."""
-    order = np.argsort(group, kind="stable")
-    return order, np.searchsorted(group[order], np.arange(count + 1))
+    # Narrow numbers are sorted by their digits, in a fifth of the time.
+    narrow = group.astype(np.int16) if count <= np.iinfo(np.int16).max else group
+    order = np.argsort(narrow, kind="stable")
+    return order, np.searchsorted(narrow[order], np.arange(count + 1))
 
 
 def _of(rows: tuple[Ints, Ints], group: int) -> Ints:

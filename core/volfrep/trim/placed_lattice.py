@@ -69,6 +69,16 @@ class PlacedLattice(Placed):
         """Some of the octants without their corners, numbered as among all; their own count."""
         return lay_out_some(replace(self.layout, octants=self.octants), where)
 
+    def to_cut(self) -> PlacedLattice:
+        """The same for what asks for `cutting` only, without vertices' numbers that takes none of.
+
+        Nor with a monitor.
+        """
+        layout = self.layout
+        if self.points is None:
+            layout = replace(layout, places=[], base=layout.base[:0])
+        return replace(self, layout=layout, octants={}, monitor=Monitor())
+
     @cached_property
     def is_proved_by_kind(self) -> bool:
         """Whether what holds for kinds of octants holds for all of them, where they lie.

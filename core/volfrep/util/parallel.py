@@ -7,12 +7,14 @@ sent a path, and what was written a moment ago is still in memory.
 
 from __future__ import annotations
 
+import mmap
+import pickle
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from .threads import in_threads
 
@@ -20,6 +22,10 @@ if TYPE_CHECKING:  # the command's help needs no numpy
     from numpy.typing import NDArray
 
 T = TypeVar("T")
+Shared = TypeVar("Shared", covariant=True)
+
+#: Arrays in files begin at multiples of so many bytes.
+ALIGNED = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +54,46 @@ class MappedArray:
 SharedArray = LocalArray | MappedArray
 
 
+class SharedValue(Protocol[Shared]):
+    """A value that calls of a function share; it pickles."""
+
+    @property
+    def value(self) -> Shared:
+        """It; nobody writes into its arrays."""
+
+
+@dataclass(frozen=True, eq=False)
+class LocalValue(Generic[Shared]):
+    """A value of this process, for its threads."""
+
+    value: Shared
+
+
+@dataclass(frozen=True)
+class MappedValue(Generic[Shared]):
+    """A value whose arrays lie in a file that processes map into their memory.
+
+    Attributes:
+        path: of the file.
+        rest: the value without these, pickled.
+        spans: where each begins and ends, bytes.
+    """
+
+    path: Path
+    rest: bytes
+    spans: tuple[tuple[int, int], ...]
+
+    @property
+    def value(self) -> Shared:
+        """It, made anew; the file is closed once nobody has its arrays any more."""
+        with self.path.open("rb") as file:
+            data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
+        found: Shared = pickle.loads(
+            self.rest, buffers=[data[low:high] for low, high in self.spans]
+        )
+        return found
+
+
 class ParallelBackend:
     """Makes calls side by side: this one on threads of this process."""
 
@@ -72,9 +118,38 @@ class ParallelBackend:
             return
         import numpy as np
 
-        # Where a reader is ended in the middle of it, Windows keeps its file for a moment.
-        with tempfile.TemporaryDirectory(prefix="volfrep-", ignore_cleanup_errors=True) as folder:
-            files = [Path(folder) / f"{number}.npy" for number in range(len(arrays))]
+        with _folder() as folder:
+            files = [folder / f"{number}.npy" for number in range(len(arrays))]
             for file, array in zip(files, arrays, strict=True):
                 np.save(file, array)
             yield tuple(MappedArray(file) for file in files)
+
+    @contextmanager
+    def sharing_value(self, value: T) -> Iterator[SharedValue[T]]:
+        """A value for the calls, anything that pickles; `sharing` is for single arrays.
+
+        Raises:
+            OSError: as of `sharing`.
+        """
+        if not self.uses_processes:
+            yield LocalValue(value)
+            return
+        buffers: list[pickle.PickleBuffer] = []
+        rest = pickle.dumps(value, protocol=5, buffer_callback=buffers.append)
+        with _folder() as folder:
+            path, spans = folder / "arrays", []
+            with path.open("wb") as file:
+                file.write(bytes(ALIGNED))  # an empty file cannot be mapped
+                for buffer in buffers:
+                    file.write(bytes(-file.tell() % ALIGNED))
+                    begin = file.tell()
+                    spans.append((begin, begin + file.write(buffer.raw())))
+            yield MappedValue(path, rest, tuple(spans))
+
+
+@contextmanager
+def _folder() -> Iterator[Path]:
+    """A folder of files for a while."""
+    # Where a reader is ended in the middle of it, Windows keeps its file for a moment.
+    with tempfile.TemporaryDirectory(prefix="volfrep-", ignore_cleanup_errors=True) as folder:
+        yield Path(folder)

@@ -25,6 +25,7 @@ from volfrep.mesh.triangle_mesh import TriangleMesh, compact
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey
 from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.octants.octant_spec import OctantSpec
+from volfrep.process.pool import processes
 from volfrep.spatial.resolve_crossings import folds_of
 from volfrep.trim import boolean_trim, group_cut, octant_groups
 from volfrep.trim.boolean_trim import join, trim
@@ -231,13 +232,13 @@ def small_groups(monkeypatch):
 def joined_of(monkeypatch):
     """What is cut from here on is noted: how many groups there were, each time."""
     counts = []
-    each = octant_groups.Groups.each
+    cut_each = boolean_trim._cut_each
 
-    def noted(self, which, *given, **named):
-        counts.append(len(which))
-        return each(self, which, *given, **named)
+    def noted(cuts, count, *given):
+        counts.append(count)
+        return cut_each(cuts, count, *given)
 
-    monkeypatch.setattr(octant_groups.Groups, "each", noted)
+    monkeypatch.setattr(boolean_trim, "_cut_each", noted)
     return counts
 
 
@@ -288,6 +289,35 @@ def test_threads_of_this_process_cut_the_same(small_groups, monkeypatch):
     assert cutting
 
 
+def test_a_process_makes_the_group_that_this_one_would_make(small_groups, monkeypatch):
+    monkeypatch.setattr(ParallelBackend, "uses_processes", True)
+    seen = []
+
+    def noted(groups, inner, proof, cavity, *_):
+        with ParallelBackend().sharing_value(groups.to_share()) as shared:
+            seen.extend((groups.group(k, cavity), shared.value.group(k, cavity)) for k in (0, 2))
+        raise Cancelled("seen enough")
+
+    monkeypatch.setattr(boolean_trim, "_join_groups", noted)
+    with pytest.raises(Cancelled):
+        trimmed(tilted_box())
+    for one, other in seen:
+        assert len(one.boundary.triangles) > one.own_boundary.sum() > 0
+        for of in (
+            lambda group: group.boundary.vertices,
+            lambda group: group.boundary.triangles,
+            lambda group: group.own_boundary,
+            lambda group: np.stack([group.own, group.adjacent, group.follow]),
+            lambda group: group.placed.mesh(*surface_of(group), Monitor())[0].vertices,
+        ):
+            np.testing.assert_array_equal(of(one), of(other))
+
+
+def surface_of(group):
+    """The facets of a group's own octants, and which these are."""
+    return group.placed.facets(group.own, Monitor()), group.own
+
+
 def test_a_cancel_while_threads_cut_begins_no_more_groups(small_groups, monkeypatch):
     use_threads(2)
     begun, waits = [], Event()
@@ -309,8 +339,8 @@ def test_a_cancel_while_threads_cut_begins_no_more_groups(small_groups, monkeypa
 def test_the_surface_is_the_same_whoever_cuts_the_groups(small_groups):
     domain = tilted_box()
     alone = mesh_of(trimmed(domain))
-    with ThreadPoolExecutor(2) as threads, ProcessPoolExecutor(1) as process:
-        for executor in (threads, process):
+    with ThreadPoolExecutor(2) as threads, ProcessPoolExecutor(1) as process, processes(2) as two:
+        for executor in (threads, process, two):
             mesh = mesh_of(trimmed(domain, executor=executor))
             np.testing.assert_array_equal(mesh.vertices, alone.vertices)
             np.testing.assert_array_equal(mesh.triangles, alone.triangles)

@@ -41,7 +41,10 @@ if TYPE_CHECKING:
 #: Every so many triangles are worth a process that helps to make them.
 WORTH_WORKER = 150_000
 #: Where what workers are given lies.
-MODULES = "volfrep.trim.boolean_trim", "volfrep.io.write.stl", "scipy.spatial"
+MODULES = (
+    "volfrep.trim.boolean_trim", "volfrep.octants.octant_mesh", "volfrep.io.write.stl",
+    "scipy.spatial",
+)  # fmt: skip
 
 
 @contextmanager

@@ -57,6 +57,11 @@ class PartDomain:
         """What the lattice fills, with what is to be said of the skin about it."""
         return self.kept_domain.value
 
+    @property
+    def has_domain(self) -> bool:
+        """Whether the domain was found already."""
+        return "kept_domain" in self.__dict__
+
     @cached_property
     def kept_domain(self) -> Kept[Domain]:
         """The domain as the input of a stage."""

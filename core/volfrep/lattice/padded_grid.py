@@ -47,6 +47,12 @@ def least_width(cell: UnitCell, cell_size: float, struts: Struts) -> float:
     return LEAST_WIDTH_STRETCHED
 
 
+def endless_kinds(cell: UnitCell) -> list[OctantKey]:
+    """The kinds of octant in a lattice without end."""
+    mirrors = 1 if cell.is_mirror_symmetric else 8
+    return [OctantKey(mirror, ALL_ACTIVE) for mirror in range(mirrors)]
+
+
 def usable_cells(cells: CellGrid, mapping: CoordinateMap | None, least: float) -> Bools | None:
     """(nx, ny, nz) bool, cells about an axis or centre at least so wide; None: all are."""
     if mapping is None or mapping.base.kind == "cartesian":
@@ -174,13 +180,11 @@ class PaddedGrid:
             return replace(grid, kind=kind)
         open_ends = zip(active.shape, cells.periodic, strict=True)
         nx, ny, nz = (2 * n + (0 if closed else 2) for n, closed in open_ends)
-        if cell.is_mirror_symmetric:
-            kind, keys = np.zeros((nx, ny, nz), np.int16), [OctantKey(0, ALL_ACTIVE)]
-        else:
-            kind = octant_mirrors((nx, ny, nz)).astype(np.int16)
-            keys = [OctantKey(mirror, ALL_ACTIVE) for mirror in range(8)]
-        symmetric = cell.is_mirror_symmetric
-        return OctantGrid(keys, kind, cells.origin, size, symmetric, cells.periodic)
+        symmetric, keys = cell.is_mirror_symmetric, endless_kinds(cell)
+        kind = np.zeros((nx, ny, nz)) if symmetric else octant_mirrors((nx, ny, nz))
+        return OctantGrid(
+            keys, kind.astype(np.int16), cells.origin, size, symmetric, cells.periodic
+        )
 
     def graph(self, cell: UnitCell, active: Bools, endless: bool) -> CellGraph:
         """The graph of all the cells whose struts the octants of the active ones are bound to."""

@@ -140,6 +140,18 @@ def mesh_octants(
     return result
 
 
+def mesh_elsewhere(
+    cell: UnitCell, spec: OctantSpec, keys: Sequence[OctantKey]
+) -> tuple[dict[OctantKey, Octant], dict[str, int]]:
+    """As `mesh_octants`, which any process may do, and what was done, counted.
+
+    Raises:
+        FacetsCross: as there.
+    """
+    monitor = Monitor()
+    return mesh_octants(cell, spec, keys, monitor), monitor.work
+
+
 def _mesh(
     spec: OctantSpec,
     primitives: Mapping[OctantKey, Primitives],

@@ -9,13 +9,14 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from queue import SimpleQueue
 from typing import Any, TypeVar
 
 from ..util.errors import VolfrepError
 from ..util.parallel import ParallelBackend
+from ..util.progress import POLL_SECONDS, Monitor
 from ..util.threads import threads
 from .worker import Call, Ending, Program, Worker, WorkerLost, this_python
 
@@ -59,6 +60,7 @@ class WorkerPool(ThreadPoolExecutor):
         self._is_open = True
         self.workers: list[Worker] = []
         self._idle: SimpleQueue[Worker | _ThisProcess | None] = SimpleQueue()
+        self._waiting: list[tuple[Future[Any], Call]] | None = [] if count and with_this else None
         for _ in range(count):
             if with_this:  # whose thread goes on while they start
                 super().submit(self._greeted, self._started())
@@ -82,8 +84,29 @@ class WorkerPool(ThreadPoolExecutor):
             raise BrokenExecutor("its workers end again and again")
         return super().submit(self._made, Call(function, given, named, has_progress=False))
 
+    def elsewhere(self, function: Callable[..., T], *given: Any) -> Future[T]:
+        """As `submit`, but no worker that starts is overtaken by this process.
+
+        The first one that is ready makes the call before all others; until then it can be
+        cancelled.
+        """
+        with self._changing:
+            if self._waiting is not None:
+                future: Future[T] = Future()
+                self._waiting.append((future, Call(function, given, has_progress=False)))
+                return future
+        return self.submit(function, *given)
+
     def _greeted(self, worker: Worker) -> None:
         worker.greets()
+        with self._changing:
+            waiting, self._waiting = self._waiting or [], None
+        for future, call in waiting:
+            if future.set_running_or_notify_cancel():
+                try:
+                    future.set_result(worker.answer(call))
+                except Exception as error:
+                    future.set_exception(error)  # one that is lost is told with its next call
         self._idle.put(worker)
 
     def _made(self, call: Call) -> Any:
@@ -157,7 +180,7 @@ def processes(
         pool.shutdown(cancel_futures=True)
 
 
-def on_this_machine(executor: Executor | None) -> Executor | None:
+def on_this_machine(executor: Executor | None) -> WorkerPool | None:
     """An executor of processes of this machine, which see its files; None for any other."""
     return executor if isinstance(executor, WorkerPool) else None
 
@@ -210,6 +233,21 @@ def let_go(executor: Executor | None) -> None:
     """
     if isinstance(executor, WorkerPool):
         executor.shutdown(wait=False, cancel_futures=True)
+
+
+def awaited(future: Future[T], watch: Callable[[], object], monitor: Monitor) -> T | None:
+    """What a worker made; None where it failed or was lost. A cancel does not wait.
+
+    Args:
+        future: of an executor.
+        watch: called again and again while it is waited for.
+        monitor: for cancel.
+    """
+    while not future.done():
+        wait([future], POLL_SECONDS)
+        watch()
+        monitor.tick()
+    return None if future.cancelled() or future.exception() is not None else future.result()
 
 
 def at_once(executor: Executor) -> int:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,13 +24,13 @@ from ..mesh.open_shells import OpenShells, joined_shells
 from ..mesh.topology import corners_among, pieces_of, vertices_of
 from ..mesh.triangle_mesh import TriangleMesh, compact, rows_where
 from ..process.cluster import Watch
-from ..process.pool import at_once, backend_of
+from ..process.pool import at_once, awaited, backend_of
 from ..spatial.rays import inside_points
 from ..spatial.resolve_crossings import Looks
 from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
 from ..util.parallel import SharedValue
-from ..util.progress import POLL_SECONDS, Monitor
+from ..util.progress import Monitor
 from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
 from .culling import KeptOctants, without_pinches
@@ -41,8 +41,6 @@ from .trimmed_surface import TrimmedSurface, concatenated_at, equal_rows, hash_p
 
 if TYPE_CHECKING:
     import manifold3d
-
-T = TypeVar("T")
 
 #: Makes a piece; keyword ``monitor`` for cancel.
 Cut = Callable[..., Piece]
@@ -140,7 +138,7 @@ def _join_groups(
             return Joined(piece.mesh, piece.on_boundary, wrong), inner
         if not len(wrong):
             if inner is not None and proof is not None:
-                inner = replace(inner, proof=_awaited(proof, Watch(executor), monitor))
+                inner = replace(inner, proof=awaited(proof, Watch(executor), monitor))
             proof = None
             rim = np.zeros((0, 3)) if inner is None else inner.rim_points
             together = [pieces[k] for k in range(groups.count)]
@@ -260,19 +258,10 @@ def _await_piece(future: Future[Piece], watch: Watch, monitor: Monitor) -> Piece
 
     What is wrong with a group itself shows again where it is cut next.
     """
-    piece = _awaited(future, watch, monitor)
+    piece = awaited(future, watch, monitor)
     if piece is None:
         monitor.count("groups whose worker was lost", 1)
     return piece
-
-
-def _awaited(future: Future[T], watch: Watch, monitor: Monitor) -> T | None:
-    """What a worker made; None where it was lost. A cancel does not wait."""
-    while not future.done():
-        wait([future], POLL_SECONDS)
-        watch()
-        monitor.tick()
-    return None if future.cancelled() or future.exception() is not None else future.result()
 
 
 def cut_again(

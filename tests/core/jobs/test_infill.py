@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The stages of an infill, each asked for alone."""
 
+from collections.abc import Callable
+from concurrent.futures import Future
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +15,8 @@ from volfrep.grid.placement import NUDGE
 from volfrep.jobs.blocks import block, block_wireframe
 from volfrep.jobs.infill import Infill
 from volfrep.jobs.pipeline import fill
+from volfrep.process.pool import WorkerPool
+from volfrep.process.worker import this_python
 
 SPEC = LatticeSpec(cell="BCC", cell_size=8, strut_radius=0.8, shell=2, resolution=8)
 
@@ -42,6 +46,29 @@ def test_a_stage_runs_those_that_it_needs_and_no_others(solid, stage, run):
     getattr(infill, stage)
     assert infill.monitor.stages.keys() == run
     assert ("kinds of octants meshed" in infill.monitor.work) == ("tile" in run)
+
+
+class _Elsewhere(WorkerPool):
+    """Workers that do at once what they are asked for."""
+
+    def __init__(self, infill: Callable[[], Infill]) -> None:
+        super().__init__(this_python(), 1)
+        self.infill, self.asked = infill, 0
+
+    def elsewhere(self, function, *given):
+        assert not self.infill().part_domain.has_domain
+        self.asked += 1
+        future = Future()
+        future.set_result(function(*given))
+        return future
+
+
+def test_a_worker_meshes_octants_before_there_is_a_wall(solid):
+    with _Elsewhere(lambda: infill) as workers:
+        infill = Infill(solid, replace(SPEC, shell=0), executor=workers)
+        infill.filling.mesh(is_cut=True)
+    assert workers.asked == 1
+    assert infill.monitor.work["kinds of octants meshed"] == 1, "and nobody once more"
 
 
 @pytest.mark.slow_cases("part")

@@ -44,12 +44,15 @@ def test_this_process_makes_calls_too_and_waits_for_no_worker_that_starts(
     ready, greets = threading.Event(), Worker.greets
     monkeypatch.setattr(Worker, "greets", lambda self: ready.wait(600.0) and greets(self))
     with processes(2, lost=ended.append, with_this=True) as workers:
-        assert workers is not None
+        assert isinstance(workers, WorkerPool)
         assert pool.at_once(workers) == 2
+        elsewhere, unwanted = workers.elsewhere(os.getpid), workers.elsewhere(os.getpid)
+        assert unwanted.cancel()
         made = [workers.submit(os.getpid) for _ in range(4)]
         numbers = {future.result() for future in made}
         assert numbers == {os.getpid()}
         ready.set()
+        assert elsewhere.result() != os.getpid()
         while len(numbers) < 2:
             made = [workers.submit(calls.number_after, 0.1) for _ in range(2)]
             numbers |= {future.result() for future in made}

@@ -50,6 +50,9 @@ class OctantLattice(PartLattice):
             roles: where octants lie with respect to the wall; None where none cuts the lattice.
         """
 
+    def ask_ahead(self) -> None:
+        """Let workers begin with what needs no wall, while this process looks for it."""
+
     @abstractmethod
     def place_vertices(self, layout: Layout) -> Deformed:
         """Where the vertices of numbered octants are in the part."""
@@ -98,6 +101,7 @@ class OctantLattice(PartLattice):
         refuse_grid(part.solid, spec.grid)  # before the skin is made
         if is_cut:
             guard.refuse_before_skin(spec, part.solid, streamed=part.streamed)
+        self.ask_ahead()
         refuse_expected(spec, 0.0 if part.streamed else part.domain.mesh.volume)
         _ = self.struts  # refused before anything is meshed
         motion = None if self.is_deformed else part.placement.motion

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from concurrent.futures import Future
 from functools import cached_property
 
 import numpy as np
@@ -16,14 +17,16 @@ from ...grid.placement import graded_wireframe
 from ...grid.strut_graph import NO_STRUTS, CellGraph, Wireframe, cell_graph
 from ...lattice.assembly import Layout
 from ...lattice.deform import Deformed
-from ...lattice.padded_grid import keeps_places, least_width, vertices_of
+from ...lattice.padded_grid import endless_kinds, keeps_places, least_width, vertices_of
 from ...lattice.strut_volume import VolumeByRadius, points_about, points_inside, volume_by_radius
 from ...octants.octant import Octant, OctantKey
-from ...octants.octant_mesh import mesh_octants, octant_spec
+from ...octants.octant_mesh import mesh_elsewhere, mesh_octants, octant_spec
 from ...octants.octant_spec import OctantSpec
+from ...process.pool import awaited, on_this_machine
 from ...trim.culling import KeptOctants, OctantRoles
 from ...trim.prune import Pruned, prune
 from ...trim.stage import chosen_octants
+from ...util.progress import Monitor
 from .. import octant_guard as guard
 from ..finer import until_sound
 from ..target_search import REACH, WantedVolume
@@ -31,9 +34,15 @@ from .kind import RadiiBorne
 from .octant_lattice import OctantLattice
 from .radius_search import RadiusSearch
 
+#: Octants that a worker meshes, and what it does, counted.
+_Meshed = Future[tuple[dict[OctantKey, Octant], dict[str, int]]]
+
 
 class StrutLattice(OctantLattice):
     """The struts of a part's cells."""
+
+    #: What octants were to be meshed by a worker, and these.
+    _asked: tuple[tuple[object, ...], _Meshed] | None = None
 
     def wanted_meshing(self) -> OctantSpec:
         """What octants are to be meshed for."""
@@ -89,12 +98,37 @@ class StrutLattice(OctantLattice):
                 grid, roles, self._cell, self.pruned, wanted, joined=self.is_deformed
             )
             keys = tuple(kept.grid.keys)
-            made = part.cache.run("tile", mesh_octants, self._cell, wanted, keys, part.watch)
+            made = part.cache.run("tile", self._mesh_octants, self._cell, wanted, keys, part.watch)
             return kept, made.value
 
         (kept, octants), self.meshing, notes = until_sound(self.meshing, meshed)
         self._notes = notes + guard.deviation_warnings(octants, self.meshing)
         return kept, octants
+
+    def ask_ahead(self) -> None:
+        """Let a worker mesh octants while this process looks for the wall.
+
+        In a part these are mostly those of a lattice without end.
+        """
+        executor = on_this_machine(self.part.executor)
+        if executor is None or not self.spec.ending.is_endless or self.part.has_domain:
+            return
+        given = self._cell, self.meshing, tuple(endless_kinds(self._cell))
+        self._asked = given, executor.elsewhere(mesh_elsewhere, *given)
+
+    def _mesh_octants(
+        self, cell: UnitCell, spec: OctantSpec, keys: tuple[OctantKey, ...], monitor: Monitor
+    ) -> dict[OctantKey, Octant]:
+        """As the function of that name, or what a worker has made of the same."""
+        asked, self._asked = self._asked, None
+        if asked is not None and not asked[1].cancel() and asked[0] == (cell, spec, keys):
+            made = awaited(asked[1], lambda: None, monitor)
+            if made is not None:
+                octants, work = made
+                for name, amount in work.items():
+                    monitor.count(name, amount)
+                return octants
+        return mesh_octants(cell, spec, keys, monitor)
 
     def place_vertices(self, layout: Layout) -> Deformed:
         """Where the vertices of numbered octants are in the part."""

@@ -35,12 +35,20 @@ def modules() -> dict[str, Path]:
     return found
 
 
+def statements(tree: ast.AST) -> Iterator[ast.AST]:
+    """All statements of a module, those within others too, without what they are made of."""
+    for part in ("body", "orelse", "handlers", "finalbody", "cases"):
+        for statement in getattr(tree, part, ()):
+            yield statement
+            yield from statements(statement)
+
+
 def imports(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
     """The engine's modules that a module imports, wherever in it the import stands."""
     package = name.split(".") if name else []
     if path.name != "__init__.py":
         package = package[:-1]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in statements(ast.parse(path.read_text(encoding="utf-8"))):
         if not isinstance(node, ast.ImportFrom) or not node.level:
             continue
         base = package[: len(package) - node.level + 1]

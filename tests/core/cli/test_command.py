@@ -634,20 +634,6 @@ sys.exit(main())
 """
 
 
-def test_a_lattice_without_a_target_loads_nothing_that_only_targets_need(tmp_path: Path) -> None:
-    """As long to load as a small lattice takes to make."""
-    arguments = ["block", "-o", "block.stl", "--quiet", *LATTICE, "--count", "1,1,1"]
-    asked = (
-        "import sys; from volfrep.cli.command import run; run(sys.argv[1:]); "
-        "print(*({'scipy.stats', 'scipy.optimize', 'scipy.interpolate'} & set(sys.modules)))"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", asked, *arguments], cwd=tmp_path, capture_output=True, text=True
-    )
-    assert (done.stdout, done.stderr) == ("\n", "")
-    assert (tmp_path / "block.stl").is_file()
-
-
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for another process")
 def test_ctrl_c_leaves_nothing(tmp_path: Path) -> None:
     (tmp_path / "block.stl").write_bytes(b"old")

@@ -226,10 +226,11 @@ DEEP = "[" * 200_000
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with a study and what it made."""
+    """A folder with a study and what it made, without plots: `test_page` looks at these."""
     folder = tmp_path_factory.mktemp("done")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
+        patch.setattr(page, "plots_of", lambda *_: [])
         trimesh.creation.box((20, 20, 20)).export("part.stl")
         study()
         assert run("sweep", "study.toml", "-o", "runs", "--quiet") == 0
@@ -238,7 +239,7 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def studied(done: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A copy of it, whose page is written without plots: `test_page` looks at these."""
+    """A copy of it, whose page is written without plots, too."""
     shutil.copytree(done, tmp_path, dirs_exist_ok=True)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(page, "plots_of", lambda *_: [])

@@ -59,8 +59,8 @@ def test_figures_of_a_curve():
 
 def test_the_command_writes_curve_and_figures(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     curve, figures = tmp_path / "curve.csv", tmp_path / "figures.json"
-    asked = ["crush", "Kelvin", "--cell-size", "10", "--relative-density", "0.05", "--cells", "1"]
-    out = ["--material", "PA12", "--strain", "0.05", "-o", str(curve), "--json", str(figures)]
+    asked = ["crush", "BCC", "--cell-size", "10", "--relative-density", "0.05", "--cells", "1"]
+    out = ["--material", "PA12", "--strain", "0.01", "-o", str(curve), "--json", str(figures)]
     assert run([*asked, *out]) == 0
     assert "absorbed energy" in capsys.readouterr().out
     rows = np.loadtxt(curve, delimiter=",", skiprows=1)

@@ -21,8 +21,8 @@ from volfrep.octants.refinement import (
 from volfrep.util.progress import Monitor
 
 KEY = OctantKey(0, ALL_ACTIVE)
-#: Barycentric coordinates of 120 points of a triangle.
-WITHIN = np.array([(i, j, 14 - i - j) for i in range(15) for j in range(15 - i)]) / 14.0
+#: Barycentric coordinates of 36 points of a triangle.
+WITHIN = np.array([(i, j, 7 - i - j) for i in range(8) for j in range(8 - i)]) / 7.0
 
 
 def octant_of(name, facets=15, key=KEY, radius=1.0):
@@ -30,7 +30,7 @@ def octant_of(name, facets=15, key=KEY, radius=1.0):
 
 
 def facet_deviations(name, octant, key=KEY, radius=1.0):
-    """(m, 120) distances of points of the facets from struts and joints, mm; (m,) areas."""
+    """(m, 36) distances of points of the facets from struts and joints, mm; (m,) areas."""
     primitives = octant_primitives(LIBRARY[name], key, 10.0, radius, 20.0)
     corners = octant.vertices[octant.triangles]
     points = np.einsum("qi,mik->mqk", WITHIN, corners)

@@ -12,11 +12,11 @@ def _capped_cylinder_distance(points, start, end, radius):
     """By brute force: the nearest of many points on the cylinder's surface."""
     axis = (end - start) / np.linalg.norm(end - start)
     across = np.linalg.svd(axis[None])[2][1:]
-    angle = np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    angle = np.linspace(0, 2 * np.pi, 200, endpoint=False)
     ring = np.cos(angle)[:, None] * across[0] + np.sin(angle)[:, None] * across[1]
-    along = np.linspace(0, 1, 300)
+    along = np.linspace(0, 1, 150)
     side = (start + along[:, None] * (end - start))[:, None] + radius * ring
-    rim = np.linspace(0, 1, 80)[:, None, None] * radius * ring
+    rim = np.linspace(0, 1, 40)[:, None, None] * radius * ring
     surface = np.concatenate(
         [side.reshape(-1, 3), (start + rim).reshape(-1, 3), (end + rim).reshape(-1, 3)]
     )

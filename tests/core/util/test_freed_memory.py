@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-#: Takes and frees ten arrays of 4 MB, over and over; prints how many pages the system gave.
+#: Takes and frees ten arrays of 4 MB, twice; prints how many pages the system gave.
 SCRIPT = """
 import resource
 import numpy as np
@@ -16,7 +16,7 @@ from volfrep.util.freed_memory import keep_freed_memory
 
 def pages():
     before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
-    for _ in range(5):
+    for _ in range(2):
         taken = [np.ones(1 << 19) for _ in range(10)]
         del taken
     return resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before

@@ -24,8 +24,8 @@ from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..mesh.well_shaped import Tolerance, angles_of, mend_bad_facets, names
 from ..process.child import Limits, OverLimit
 from ..process.programs import run_program
+from ..spatial.piercing import meeting_triangles, piercing_pairs
 from ..spatial.proximity import closest_points, sample_triangles
-from ..spatial.self_intersection import crossing_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
@@ -51,8 +51,8 @@ NEEDLE = 2.0
 #: median edge. It is less so many median edges about places where facets would cross or fold.
 MENDING = 0.05
 NEAR = 1.0
-#: Facets that run through each other by less (median edges) touch: they lie in one plane.
-TOUCHING = 1e-7
+#: Facets that mending leaves no farther apart than this touch, mm: Gmsh takes them to intersect.
+TOUCHING = 1e-6
 #: What Gmsh finds to intersect is mended less in a next try, so many times.
 GMSH_TRIES = 1
 #: Gmsh improves what it has filled, which does not end with a few meshes: of a processor it may
@@ -394,7 +394,7 @@ def mend_surface(
 
     def find_faults(part: TriangleMesh, new: Bools) -> Bools:
         monitor.tick()
-        faulty = crossing_triangles(part, new, TOUCHING * edge) | folded_facets(part, new)
+        faulty = meeting_triangles(part, new, TOUCHING, monitor) | folded_facets(part, new)
         rows = np.flatnonzero(new)
         size = np.linalg.norm(normals(part.vertices[part.triangles[rows]]), axis=1)
         faulty[rows] |= size <= LEAST_LENGTH**2
@@ -402,10 +402,8 @@ def mend_surface(
 
     better = mend_bad_facets(mesh, tolerance, SHORTEST * edge, find_faults)
     single = without_faults(better, tolerance.usual, NEEDLE, monitor)
-    if single is not better:
-        every = np.ones(len(single.triangles), bool)
-        if not monitor.call(lambda: crossing_triangles(single, every, TOUCHING * edge)).any():
-            better = single
+    if single is not better and not len(piercing_pairs(single, monitor)):
+        better = single
     return better, tolerance.usual
 
 

@@ -18,7 +18,8 @@ from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
-from .self_intersection import portions_of_pairs
+from .proximity import closest_on_triangles
+from .self_intersection import about, portions_of_pairs
 
 Signs = NDArray[np.int8]
 
@@ -53,6 +54,28 @@ def piercing_pairs(mesh: TriangleMesh, monitor: Monitor | None = None) -> Ints:
         Cancelled: when the monitor says so.
     """
     return piercing_among(mesh, pairs_at_planes(mesh, 0.0, monitor))
+
+
+def meeting_triangles(
+    mesh: TriangleMesh, among: Bools, gap: float, monitor: Monitor | None = None
+) -> Bools:
+    """(m,) the triangles that pierce each other or come near, of pairs with at least one of some.
+
+    Neighbours over an edge are not looked at; of those that share a corner what lies away from it.
+
+    Args:
+        mesh: as of `piercing_pairs`.
+        among: (m,) bool, those.
+        gap: what is nearer than this is near, mm.
+        monitor: asked for a cancel.
+    """
+    rows = np.flatnonzero(about(mesh, among))
+    part = TriangleMesh(mesh.vertices, mesh.triangles[rows])
+    pairs = pairs_at_planes(part, gap, monitor, among[rows])
+    result = np.zeros(len(mesh.triangles), bool)
+    result[rows[piercing_among(part, pairs)]] = True
+    result[rows[pairs[_are_near(part, pairs, gap)]]] = True
+    return result
 
 
 def pairs_at_planes(
@@ -226,6 +249,33 @@ def piercing_among(mesh: TriangleMesh, pairs: Ints) -> Ints:
     found = [np.empty((0, 2), np.int64), *in_threads(lambda some: _piercing(mesh, some), blocks)]
     result: Ints = np.unique(np.concatenate(found), axis=0)
     return result
+
+
+def _are_near(mesh: TriangleMesh, pairs: Ints, gap: float) -> Bools:
+    """(k,) whether pairs of triangles are near by a corner of one, or by an edge of each."""
+    both = mesh.triangles[pairs]
+    corners = mesh.vertices[both]
+    shared = both[:, 0, :, None] == both[:, 1, None, :]
+    near = np.zeros(len(pairs), bool)
+    for one, other in ((0, 1), (1, 0)):
+        for k in range(3):
+            place = corners[:, one, k]
+            away = np.linalg.norm(closest_on_triangles(corners[:, other], place)[0] - place, axis=1)
+            near |= (away < gap) & ~shared.any(axis=2 - one)[:, k]
+    for i in range(3):
+        for j in range(3):
+            # Nearest between their ends: else it is a corner of one.
+            p, r = corners[:, 0, i], corners[:, 1, j]
+            along, across = corners[:, 0, i - 2] - p, corners[:, 1, j - 2] - r
+            upright = np.cross(along, across)
+            size = np.maximum(np.einsum("ij,ij->i", upright, upright), 1e-300)
+            parts = (np.einsum("ij,ij->i", np.cross(r - p, way), upright) / size
+                     for way in (across, along))  # fmt: skip
+            inner = np.all([(part > 0.0) & (part < 1.0) for part in parts], axis=0)
+            away = np.abs(np.einsum("ij,ij->i", r - p, upright)) / np.sqrt(size)
+            meets = shared[:, [i, i - 2]][:, :, [j, j - 2]].any(axis=(1, 2))
+            near |= inner & (away < gap) & ~meets
+    return near
 
 
 def _piercing(mesh: TriangleMesh, pairs: Ints) -> Ints:

@@ -308,7 +308,8 @@ def test_a_thin_skin_is_mended_without_a_fold_or_a_crossing():
 def test_where_all_would_cross_nothing_is_mended(monkeypatch):
     """Neither by many moves nor by single ones."""
     slender = samples.box((100.0, 1.0, 1.0))
-    monkeypatch.setattr(tet_mesh, "crossing_triangles", lambda _, among, depth: among)
+    monkeypatch.setattr(tet_mesh, "meeting_triangles", lambda _, among, *__: among)
+    monkeypatch.setattr(tet_mesh, "piercing_pairs", lambda *_: np.zeros((1, 2), int))
     better, moved = mend_surface(slender, Monitor())
     assert moved > 0.0
     assert np.array_equal(canonical(corners_of(better)), canonical(corners_of(slender)))

@@ -7,7 +7,12 @@ import trimesh
 
 import samples
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
-from volfrep.spatial.piercing import pairs_at_planes, piercing_among, piercing_pairs
+from volfrep.spatial.piercing import (
+    meeting_triangles,
+    pairs_at_planes,
+    piercing_among,
+    piercing_pairs,
+)
 from volfrep.util.errors import Cancelled
 from volfrep.util.progress import Monitor
 
@@ -140,6 +145,30 @@ def test_a_triangle_beyond_an_edge_of_a_long_one_needs_no_exact_look():
     for aside, count in ((0.3, 0), (-0.3, 1)):
         vertices = np.array(long + small) + np.outer([0, 0, 0, 1, 1, 1], [aside, aside, 0])
         assert len(pairs_at_planes(TriangleMesh(vertices, triangles), 0.0)) == count
+
+
+UP, OUT = np.array([0.0, 0.0, 1.0]), np.array([1.0, 1.0, 0.0]) / 2**0.5
+#: Triangles that touch one with corners (0, 0), (4, 0), (0, 4) in a plane: their corners, which of
+#: all six they have, and the way off. One stands on a corner or an edge, one has an edge across its
+#: longest, and one leaves the corner that they share in its plane.
+BESIDE = {
+    "corner": ([[1, 1, 0], [2, 1, 3], [1, 2, 3]], [3, 4, 5], UP),
+    "edge": ([[1, 1, 0], [3, 3, 0], [3, 3, 3]], [3, 4, 5], UP),
+    "edges": ([[2, 2, -1], [2, 2, 1], [5, 5, 0]], [3, 4, 5], OUT),
+    "shared": ([[1, 1, 0], [2, 1, 3], [1, 2, 3]], [0, 3, 4], UP),
+}
+
+
+@pytest.mark.parametrize("kind", BESIDE)
+def test_what_comes_nearer_than_a_gap_meets(kind):
+    corners, other, way = BESIDE[kind]
+    for gap, off, meets in ((1e-6, 0.5, True), (1e-6, 2.0, False), (1e-3, 0.5, True)):
+        places = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], *corners], float)
+        places[3:] += off * gap * way
+        mesh = TriangleMesh(places, np.array([[0, 1, 2], other], np.int32))
+        for among in ([True, False], [False, True]):
+            assert meeting_triangles(mesh, np.array(among), gap).tolist() == [meets] * 2
+        assert not meeting_triangles(mesh, np.zeros(2, bool), gap).any()
 
 
 def test_it_can_be_cancelled():

@@ -75,7 +75,7 @@ def run_size(given: argparse.Namespace) -> int | None:
     cache = StageCache()
     start = time.perf_counter()
     with drawn(options.quiet) as progress:
-        with _stopping(progress) as callback:
+        with _stopping(_naming(progress, options.quiet)) as callback:
             made = size(
                 solid, spec, loads, goal, most_steps=options.steps, prove_it=options.prove,
                 progress=callback, cache=cache, watch=_teller(options.quiet, options.steps, goal),
@@ -172,6 +172,22 @@ def _stopping(progress: ProgressCallback) -> Iterator[ProgressCallback]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def _naming(progress: ProgressCallback, quiet: bool) -> ProgressCallback:
+    """A progress that also names each stage on standard error where no bar is drawn there."""
+    if quiet or sys.stderr.isatty():
+        return progress
+    before = ""
+
+    def named(fraction: float, stage: str) -> bool | None:
+        nonlocal before
+        if stage != before:
+            print(f"{fraction:.0%}: {stage}", file=sys.stderr, flush=True)
+            before = stage
+        return progress(fraction, stage)
+
+    return named
 
 
 def _teller(quiet: bool, most_steps: int, goal: Goal) -> Callable[[int, Step], bool] | None:

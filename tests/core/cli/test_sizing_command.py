@@ -319,13 +319,15 @@ def test_a_signal_to_stop_keeps_the_best_design_so_far(
     assert [signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)] == handlers
 
 
-def test_every_step_is_told_though_nobody_looks(
+def test_every_step_and_stage_is_told_though_nobody_looks(
     part: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     options = ("--loads", part.with_name("loads.toml"), "-o", part.with_name("out.stl"))
     assert run("size", part, *options, *WHOLE, "--no-proof", "--steps", "3") in (0, 3)
-    lines = [line for line in capsys.readouterr().err.splitlines() if line.startswith("step ")]
+    told = capsys.readouterr().err.splitlines()
+    lines = [line for line in told if line.startswith("step ")]
     assert len(lines) == 3
+    assert "40%: sizing" in told[: told.index(lines[0])]
     assert re.fullmatch(r"step 1: struts [\d,]+ mm3", lines[0])
     assert re.search(r", [\d.]+ (s|min) a step, at most \d+ s more$", lines[1])
 

@@ -7,6 +7,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
+from itertools import chain, islice
 from typing import TypeVar
 
 from .errors import VolfrepError
@@ -55,16 +56,18 @@ def one_for_matrices() -> None:
 def in_threads(work: Callable[[S], T], items: Iterable[S]) -> Generator[T, None, None]:
     """`work(item)` for each item, in their order, on `threads` threads and a few items ahead.
 
-    Numpy lets go of the interpreter while it computes: portions of 10,000 numbers and more gain.
+    One item alone, as small jobs mostly have, is no work for another thread. Numpy lets go of the
+    interpreter while it computes: portions of 10,000 numbers and more gain.
     """
-    count = threads()
-    if count == 1:
-        yield from map(work, items)
+    count, rest = threads(), iter(items)
+    first = list(islice(rest, 2))
+    if count == 1 or len(first) < 2:
+        yield from map(work, chain(first, rest))
         return
     waiting: deque[Future[T]] = deque()
     with ThreadPoolExecutor(max_workers=count) as pool:
         try:
-            for item in items:
+            for item in chain(first, rest):
                 waiting.append(pool.submit(work, item))
                 if len(waiting) > 2 * count:
                     yield waiting.popleft().result()

@@ -2,6 +2,7 @@
 """The parallel loops use as many threads as they are told, and make the same of it."""
 
 import os
+import threading
 
 import numpy as np
 import pytest
@@ -40,6 +41,13 @@ def test_a_negative_number_is_refused_and_changes_nothing():
     with pytest.raises(VolfrepError, match="cannot be -1 threads"):
         use_threads(-1)
     assert threads.threads() == 3
+
+
+def test_one_item_is_worked_on_by_the_thread_that_asks():
+    use_threads(3)
+    here = threading.get_ident()
+    assert list(in_threads(lambda _: threading.get_ident(), [0])) == [here]
+    assert here not in in_threads(lambda _: threading.get_ident(), [0, 1])
 
 
 @pytest.mark.parametrize("count", [1, 3])

@@ -28,6 +28,8 @@ NEARLY = 1.001
 STEPS = 16
 #: Passes over the edges: each takes those that do not touch each other.
 PASSES = 8
+#: Corners of so many times fewer triangles than there are vertices are sorted and not counted.
+FEW = 32
 #: Triangles looked at at a time.
 BLOCK_TRIANGLES = 1 << 15
 
@@ -90,12 +92,18 @@ class Repair:
 
     def some(self, mesh: TriangleMesh, triangles: NDArray[np.int32]) -> TriangleMesh:
         """A mesh of some of the triangles that stay and that come."""
-        used, local = np.unique(triangles, return_inverse=True)
+        used: Ints
+        if FEW * triangles.size < len(mesh.vertices):
+            used, local = np.unique(triangles.astype(np.int64), return_inverse=True)
+            local = local.reshape(-1, 3)
+        else:
+            used, local = numbered(triangles, len(mesh.vertices))
         vertices = corners_at(mesh.vertices, used)
         place = np.searchsorted(used, self.moved)
-        here = np.isin(self.moved, used)
+        here = place < len(used)
+        here[here] = used[place[here]] == self.moved[here]
         vertices[place[here]] = self.places[here]
-        return TriangleMesh(vertices, local.reshape(-1, 3).astype(np.int32))
+        return TriangleMesh(vertices, local.astype(np.int32))
 
     def applied(
         self, mesh: TriangleMesh, goes: Bools | None = None, piece_goes: Bools | None = None
@@ -164,9 +172,11 @@ def repair_slivers(mesh: TriangleMesh, tolerance: float, among: Ints | None = No
     rest = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
     differs, new = rest.differences(mesh)
     # Vertices at the border of what was looked at are those of other triangles, too, and stay.
+    unused = vertices_of(mesh.triangles[rest.old], len(mesh.vertices))
+    unused[rest.piece] = False
     return Repair(
         rest.old, rest.piece, rest.origin, new, rest.stay[differs], rest.places[differs],
-        np.setdiff1d(mesh.triangles[rest.old], rest.piece),
+        np.flatnonzero(unused),
     )  # fmt: skip
 
 

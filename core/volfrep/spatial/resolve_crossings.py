@@ -146,6 +146,11 @@ class Looks:
         return np.flatnonzero(self.marks & SOUND == 0)
 
     @property
+    def unjudged(self) -> Ints:
+        """Triangles at whose edges others may follow: all others have none that is open."""
+        return np.flatnonzero(self.marks & JUDGED == 0)
+
+    @property
     def uncrossed(self) -> Bools:
         """(m,) bool, triangles of which no two cross each other in a file."""
         return np.asarray(self.marks & APART != 0, np.bool_)
@@ -153,7 +158,7 @@ class Looks:
     def folds(self, mesh: TriangleMesh, deformed: bool) -> Bools:
         """As `find_folds`, by a look at edges between triangles that are not judged."""
         turned = self.marks & TURNED != 0
-        rows = np.flatnonzero(self.marks & JUDGED == 0)
+        rows = self.unjudged
         if len(rows):
             part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
             turned[rows[turning(part, deformed, self.step)]] = True

@@ -37,7 +37,13 @@ from .culling import KeptOctants, without_pinches
 from .group_cut import Piece, cut_group, read_runs
 from .octant_groups import Groups, group_octants
 from .placed_lattice import InnerOctants, PlacedLattice, Proof, prove
-from .trimmed_surface import TrimmedSurface, concatenated_at, equal_rows, hash_points
+from .trimmed_surface import (
+    TrimmedSurface,
+    concatenated_at,
+    equal_rows,
+    hash_points,
+    rows_along,
+)
 
 if TYPE_CHECKING:
     import manifold3d
@@ -398,10 +404,10 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
         own, rows = slice(first[k], first[k + 1]), slice(begin[k], begin[k + 1])
         corners = piece.mesh.triangles
         np.take(number[own], corners, out=mesh.triangles[rows], mode="clip")
-        among = corners_among(at_seam[own], corners)
-        some.append(np.flatnonzero(among >= 2) + begin[k])
+        at_edge = rows_along(at_seam[own], corners, piece.looks)
+        some.append(at_edge + begin[k])
         if piece.shells is not None:
-            shells.append(piece.shells.at(piece.rim, piece.mesh, np.flatnonzero(among)))
+            shells.append(piece.shells.at(piece.rim, piece.mesh, at_edge))
         kept = rows_where(stays[own], piece.mesh.vertices)
         mesh.vertices[filled : filled + len(kept)] = kept
         filled += len(kept)

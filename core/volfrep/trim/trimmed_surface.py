@@ -267,7 +267,7 @@ class TrimmedSurface:
         row = np.full(len(self.mesh.vertices), -1, np.int64)
         row[self._rim_rows] = np.arange(len(self._inner.rim))
         # Twice among candidates: only triangles with two corners at the rim have an edge there.
-        some = np.flatnonzero(corners_among(row >= 0, self.mesh.triangles) >= 2)
+        some = rows_along(row >= 0, self.mesh.triangles, self.looks)
         corners = row[self.mesh.triangles[some]]
         start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
         here = (start >= 0) & (end >= 0)
@@ -297,6 +297,21 @@ def concatenated_at(mesh: TriangleMesh, rows: Ints, caps: Caps) -> TriangleMesh:
         np.concatenate([mesh.vertices, caps.mesh.vertices[fresh]]),
         np.concatenate([mesh.triangles, number.astype(np.int32)[caps.mesh.triangles]]),
     )
+
+
+def rows_along(chosen: Bools, triangles: NDArray[np.int32], looks: Looks | None) -> Ints:
+    """Triangles with two corners among chosen vertices, (n,) bool, that may have an open edge.
+
+    Args:
+        chosen: vertices at open edges.
+        triangles: of the mesh.
+        looks: what is known of them; None: nothing.
+    """
+    if looks is None:
+        return np.flatnonzero(corners_among(chosen, triangles) >= 2)
+    some = looks.unjudged
+    result: Ints = some[corners_among(chosen, triangles[some]) >= 2]
+    return result
 
 
 def _repeats(triangles: NDArray[np.int32]) -> bool:

@@ -11,7 +11,7 @@ import re
 import shutil
 import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -61,8 +61,8 @@ GMSH_TRIES = 1
 PATIENCE = 3.0
 LEAST_PATIENCE = 120.0
 BUSY = 20.0
-#: Tetrahedra with less than this of a regular one's shape are flat: 12 (3 V)^(2/3) / sum of l^2.
-FLAT = 1e-3
+#: Tetrahedra with less than this of a regular one's volume, by their edges' mean square, are flat.
+FLAT = 0.02
 #: No edge is split into pieces shorter than this part of it.
 SHORTEST = 0.25
 #: Seconds, nodes, elements and bytes of the deck per triangle, each within a factor of two of what
@@ -233,13 +233,18 @@ def filled_by_gmsh(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrah
         if place is None or not moved or len(places) == GMSH_TRIES:
             raise _cannot_fill(said)
         places = np.concatenate([places, place])
-    result = replace(filled, moved=moved, grown=surface.volume / mesh.volume - 1.0)
-    volumes = result.volumes()
+    points, corners, improved = filled
+    volume = signed_volumes(points, corners).sum()
+    if abs(volume / surface.volume - 1.0) > VOLUME_TOLERANCE:
+        raise _cannot_fill(f"it filled {volume:.6g} of {surface.volume:.6g} mm3")
+    least = SURFACE_TOLERANCE * float(np.linalg.norm(np.diff(mesh.bounds, axis=0)))
+    corners = without_flat(points, corners, max(moved, least))
+    volumes = signed_volumes(points, corners)
     if not len(volumes) or volumes.min() <= 0:
         raise _cannot_fill("it made tetrahedra that are inside out")
-    if abs(volumes.sum() / surface.volume - 1.0) > VOLUME_TOLERANCE:
-        raise _cannot_fill(f"it filled {volumes.sum():.6g} of {surface.volume:.6g} mm3")
-    return result
+    nodes, elements = _second_order(points, corners)
+    grown = float(volumes.sum()) / mesh.volume - 1.0
+    return TetrahedralMesh(nodes, elements, moved=moved, grown=grown, improved=improved)
 
 
 def _filled_from_lattice(
@@ -306,8 +311,8 @@ def _second_order(points: Floats, corners: Ints) -> tuple[Floats, Ints]:
 
 def _run_gmsh(
     program: str, surface: TriangleMesh, monitor: Monitor
-) -> tuple[str, TetrahedralMesh | None]:
-    """What Gmsh says of a closed surface, and the tetrahedra where it fills it."""
+) -> tuple[str, tuple[Floats, Ints, bool] | None]:
+    """What Gmsh says of a closed surface; where it fills it points, corners, whether improved."""
     try:
         brep = faceted_brep(surface)
     except VolfrepError as fault:
@@ -329,38 +334,55 @@ def _run_gmsh(
             return said, None
         for file in (improved, filled):
             if file.is_file() and (read := _read(file.read_bytes())) is not None:
-                points, corners = read
-                nodes, elements = _second_order(points, without_flat(points, corners))
-                return said, TetrahedralMesh(nodes, elements, improved=file is improved)
+                return said, (*read, file is improved)
         return said, None
 
 
-def without_flat(points: Floats, corners: Ints) -> Ints:
+def without_flat(points: Floats, corners: Ints, tolerance: float) -> Ints:
     """Tetrahedra (m, 4) without those that lie flat on the surface, with two or three faces in it.
 
-    Gmsh makes them of needles in a plane. Nothing but they is at the edge of those two faces: the
-    other two take their place, unless these would meet at an edge that the surface has already.
-    Of three the fourth takes the place, and the point where they meet goes.
+    Gmsh makes them of needles in a plane, and where the surface has an edge that a Delaunay mesh
+    would not have. Nothing but they is at the edge of those two faces: the other two take their
+    place, unless these would meet at an edge that the surface has already. Of three the fourth
+    takes the place, and the point where they meet goes.
+
+    Args:
+        points: (n, 3) mm.
+        corners: (m, 4) of positive volume, but for rounding.
+        tolerance: how far that may take the surface, mm.
     """
     edges = points[corners[:, _EDGES[:, 0]]] - points[corners[:, _EDGES[:, 1]]]
     volume = np.abs(signed_volumes(points, corners))
-    flat = 12.0 * np.cbrt(3.0 * volume) ** 2 < FLAT * np.einsum("ijk,ijk->i", edges, edges)
+    length = np.sqrt(np.einsum("ijk,ijk->i", edges, edges) / len(_EDGES))
+    flat = 6.0 * np.sqrt(2.0) * volume < FLAT * length**3
     pairs, outside = face_pairs(corners)
     shared = np.bincount(pairs.ravel(), minlength=len(corners))
+    # Neither a face nor the edge at which new ones meet may be of two that go: the flatter does.
+    both = pairs[flat[pairs].all(axis=1)]
+    both = np.take_along_axis(both, np.argsort(volume[both], axis=1), axis=1)
+    for one, two in both[np.argsort(volume[both[:, 0]])].tolist():
+        flat[two] &= not flat[one]
     rows = np.flatnonzero(flat & (shared == 2))
     count = len(points)
     faces = names(corners[rows][:, FACES].reshape(-1, 3), count).reshape(-1, len(FACES))
     is_outer = np.isin(faces, names(outside, count))
-    # Opposite to its faces in the surface are the ends of the edge at which the new ones meet.
+    # Opposite to its faces in the surface are the ends of that edge.
     one, two = corners[rows][is_outer].reshape(-1, 2).T
+    other = corners[rows][~is_outer].reshape(-1, 2).T
+    across = np.cross(points[two] - points[one], points[other[1]] - points[other[0]])
+    low = 6.0 * volume[rows] <= tolerance * np.linalg.norm(across, axis=1)
     ends = edge_keys(one, two, count)
     known = np.isin(ends, edge_keys(outside, np.roll(outside, 1, axis=1), count))
     _, first, uses = np.unique(ends, return_index=True, return_counts=True)
     once = np.zeros(len(rows), bool)
     once[first[uses == 1]] = True
     stays = np.ones(len(corners), bool)
-    stays[rows[~known & once]] = False
-    stays[flat & (shared == 1)] = False
+    stays[rows[low & ~known & once]] = False
+    rows = np.flatnonzero(flat & (shared == 1))
+    faces = names(corners[rows][:, FACES].reshape(-1, 3), count).reshape(-1, len(FACES))
+    inner = ~np.isin(faces, names(outside, count))
+    size = np.linalg.norm(normals(points[corners[rows][:, FACES][inner]]), axis=1)
+    stays[rows[6.0 * volume[rows] <= tolerance * size]] = False
     result: Ints = corners[stays]
     return result
 

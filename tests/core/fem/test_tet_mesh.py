@@ -15,6 +15,7 @@ from volfrep.fem import tet_mesh
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import sides, write_tetrahedra
 from volfrep.fem.folds import folded_facets
+from volfrep.fem.stuffed_mesh import signed_volumes
 from volfrep.fem.tet_mesh import (
     MAX_TRIANGLES,
     CannotFill,
@@ -342,15 +343,34 @@ def test_a_flat_tetrahedron_on_the_surface_goes():
     """Two below it have its other two faces; with an edge between these it has to stay."""
     points = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1e-9], [0.5, 0.5, -1]])
     below, flat = [[0, 1, 3, 4], [1, 2, 3, 4]], [0, 1, 2, 3]
-    assert tet_mesh.without_flat(points, np.array([*below, flat])).tolist() == below
-    assert len(tet_mesh.without_flat(points, np.array(below))) == 2
-    cap = np.array([[0, 1, 2, 4], [0, 2, 1, 3]])
+    assert without_flat(points, [*below, flat]) == below
+    assert len(without_flat(points, below)) == 2
+    cap = [[0, 1, 2, 4], [0, 2, 1, 3]]
     on_top = points * 1.0
     on_top[3] = (0.7, 0.3, 1e-9)
-    assert tet_mesh.without_flat(on_top, cap).tolist() == [[0, 1, 2, 4]]
+    assert without_flat(on_top, cap) == [[0, 1, 2, 4]]
     above = [*below, flat, [1, 3, 5, 6]]
     more = np.concatenate([points, [[0.5, 0.5, 1], [0, 0, 1]]])
-    assert len(tet_mesh.without_flat(more, np.array(above))) == 4
+    assert len(without_flat(more, above)) == 4
+    # Edges across are half as far apart as the corner is high.
+    points[3, 2] = on_top[3, 2] = 0.01
+    for given, places, height in (([*below, flat], points, 0.005), (cap, on_top, 0.01)):
+        assert len(without_flat(places, given, 1.01 * height)) == len(given) - 1
+        assert len(without_flat(places, given, 0.99 * height)) == len(given)
+
+
+def test_of_two_flat_tetrahedra_with_a_common_face_the_flatter_goes():
+    points = np.array(
+        [[0, 0, 1e-6], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-0.5, -0.5, 0], [0.2, 0.2, -1]]
+    )
+    below, flat = [[1, 2, 3, 5], [1, 3, 4, 5]], [[0, 1, 3, 2], [0, 1, 4, 3]]
+    assert np.abs(signed_volumes(points, np.array(flat))) == pytest.approx([1e-6 / 6, 1e-6 / 3])
+    for given in (flat, flat[::-1]):
+        assert without_flat(points, [*below, *given]) == [*below, flat[1]]
+
+
+def without_flat(points, corners, tolerance=1e-6):
+    return tet_mesh.without_flat(points, np.array(corners), tolerance).tolist()
 
 
 @needs_gmsh

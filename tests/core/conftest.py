@@ -20,7 +20,7 @@ _CACHE = Path(__file__).resolve().parents[2] / ".cache"
 sys.path.insert(0, str(_CACHE / "plot"))
 sys.path.append(str(_CACHE / "study"))
 
-settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
+settings.register_profile("fixed", derandomize=True, database=None, deadline=None, max_examples=50)
 settings.register_profile("random", deadline=None, print_blob=True, max_examples=300)
 settings.load_profile("fixed")
 if hasattr(providers, "is_local_module_file"):

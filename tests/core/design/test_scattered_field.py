@@ -423,7 +423,6 @@ def test_values_that_are_not_finite_are_refused_with_their_point(tmp_path: Path)
 
 
 @pytest.mark.parametrize("name", ["a.vtu", "a.vtk"])
-@settings(max_examples=150)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_damaged_vtk_files_are_read_or_refused(
     name: str, seed: int, tmp_path_factory: pytest.TempPathFactory

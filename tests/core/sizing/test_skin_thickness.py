@@ -113,7 +113,7 @@ def test_the_mass_asked_for_is_that_of_the_file():
 def test_the_skin_takes_what_a_strut_as_thick_as_it_may_be_cannot_bear():
     """Though a thin node has a small share in the radius of its end, which the skin cuts."""
     _, problem, radii = tube(
-        (33.0, 22.0, 22.0), lambda region: Force(region, (0, 0, -500.0)), bounds=(0.5, 4.0),
+        (22.0, 13.0, 13.0), lambda region: Force(region, (0, 0, -500.0)), bounds=(0.5, 4.0),
         patch=10.0,
     )  # fmt: skip
     shares = problem.radii.ends.toarray().reshape(-1, 2, len(radii))

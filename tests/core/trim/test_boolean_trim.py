@@ -4,6 +4,7 @@
 import pickle
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import cache
 from threading import Event, get_ident
 
 import manifold3d
@@ -68,6 +69,12 @@ def trimmed(
     return Found(found.surface, monitor.work["triangles into the Boolean"])
 
 
+@cache
+def ball():
+    """The surface of a ball's lattice, which nobody changes."""
+    return trimmed(samples.sphere(25.0)).surface
+
+
 def mesh_of(found):
     """All of the surface as one mesh."""
     return found.surface.whole(Monitor())
@@ -76,7 +83,7 @@ def mesh_of(found):
 @pytest.mark.slow_but("CVC")
 @pytest.mark.parametrize("name", PAPERS)
 def test_lattice_and_cavity_share_the_domain_between_them(name):
-    domain = samples.sphere(22.0)
+    domain = samples.sphere(15.0)
     lattice = mesh_of(trimmed(domain, name, cavity=False))
     cavity = mesh_of(trimmed(domain, name, cavity=True))
     for mesh in (lattice, cavity):
@@ -133,7 +140,7 @@ def test_what_groups_tell_of_folds_is_what_a_look_at_all_of_it_finds(cavity, mon
 
 
 def test_octants_that_do_not_fit_to_the_cut_are_found_out():
-    surface = trimmed(samples.sphere(25.0)).surface
+    surface = ball()
     mesh = surface.mesh
     rim = (mesh.vertices == surface.octants.rim_points[0]).all(axis=1)
     off = TriangleMesh(mesh.vertices + 1e-9 * rim[:, None], mesh.triangles)
@@ -146,7 +153,7 @@ def test_octants_that_do_not_fit_to_the_cut_are_found_out():
 
 
 def test_where_vertices_at_the_rim_are_is_looked_up_where_a_guess_is_wrong():
-    surface = trimmed(samples.sphere(25.0)).surface
+    surface = ball()
     points, rows = surface.octants.rim_points, surface.rim_rows
     turned = TriangleMesh(
         surface.mesh.vertices[::-1], len(surface.mesh.vertices) - 1 - surface.mesh.triangles
@@ -186,10 +193,10 @@ def test_a_mesh_that_is_no_solid_is_refused():
 
 def test_the_trimmed_lattice_has_the_genus_of_a_boolean_by_others():
     """Second opinion: the same lattice as one closed block, cut by manifold3d as a whole."""
-    domain = samples.sphere(18.0)
+    domain = samples.sphere(13.0)
     ours = quality.measure(mesh_of(trimmed(domain, "Octahedron", cavity=False)))
     everything = trimmed(
-        samples.box((40.0, 40.0, 40.0), (-20.0, -20.0, -20.0)), "Octahedron", cavity=False
+        samples.box((30.0, 30.0, 30.0), (-15.0, -15.0, -15.0)), "Octahedron", cavity=False
     )
     block = mesh_of(everything)
     solid = manifold3d.Manifold(
@@ -364,7 +371,7 @@ def test_a_worker_that_is_gone_costs_time_and_nothing_else(small_groups):
 
 
 def test_the_proof_of_octants_inside_is_the_same_wherever_it_is_found():
-    octants = trimmed(samples.sphere(22.0)).surface.octants
+    octants = ball().octants
     found = pickle.loads(pickle.dumps(prove(pickle.loads(pickle.dumps(octants)))))
     told = replace(octants, proof=found)
     np.testing.assert_array_equal(told.rim, octants.rim)

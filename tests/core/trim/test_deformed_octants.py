@@ -29,7 +29,7 @@ def graded() -> Infill:
     """A box with struts that are thicker at its skin, of which many octants lie inside."""
     radius = RadiusGrading("skin", Profile("linear", 0.5, 0.4), reach=5.0)
     spec = LatticeSpec("CVC", 5.0, 0.5, shell=1.0, radius_grading=radius, resolution=8)
-    return Infill(samples.box((34.0, 28.0, 28.0)), spec)
+    return Infill(samples.box((29.0, 23.0, 23.0)), spec)
 
 
 def placed_of(infill):

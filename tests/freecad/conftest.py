@@ -92,7 +92,8 @@ def kept_fills():
     """What a new object asks for is filled once in all tests: many begin with the same lattice.
 
     A fill with a cache of its own that holds nothing yet, and that nobody follows, is kept with
-    what it left in the cache; all others, such as an object's second one, are done.
+    what it left in the cache; all others, such as an object's second one, are done. Of what is done
+    before and after it, which follows from a mesh and a specification alone, answers are kept.
     """
     require_engine()
     sys.path.append(str(ROOT / "tests" / "core"))
@@ -114,9 +115,26 @@ def kept_fills():
         cache._entries.update(entries)
         return result
 
-    pipeline.fill = once
+    def answers(function):
+        of = {}
+
+        def answer(*given):
+            key = tuple(
+                content_of(one.vertices, one.triangles) if hasattr(one, "triangles") else one
+                for one in given
+            )
+            if key not in of:
+                of[key] = function(*given)
+            return of[key]
+
+        return answer
+
+    patch = pytest.MonkeyPatch()
+    patch.setattr(pipeline, "fill", once)
+    for function in (pipeline.check_solid, pipeline.forecast_fill, pipeline.kinds_of_triangles):
+        patch.setattr(pipeline, function.__name__, answers(function))
     yield
-    pipeline.fill = fill
+    patch.undo()
 
 
 @pytest.fixture

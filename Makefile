@@ -52,6 +52,9 @@ test-slow: setup ## what test-all has beyond test
 GUI_GROUPS := commands+display+manners+tree fresh+lattice_infill+look \
 	panel+reach+sizing+study window+escape+languages preferences+print
 GUI_FIRST := commands+display+manners+tree window+escape+languages preferences+print
+# Of each script `make test` runs few checks: one window a lane has time for them.
+test: GUI_FIRST := commands+display+manners+tree+window+escape+languages+preferences+print
+test: GUI_GROUPS := $(GUI_FIRST) fresh+lattice_infill+look+panel+reach+sizing+study
 GUI_ALONE := $(filter-out $(subst +, ,$(GUI_GROUPS)),\
 	$(patsubst drive_%.py,%,$(notdir $(sort $(wildcard tests/gui/drive_*.py)))))
 SIDE_BY_SIDE = $(PYTHON) tools/side_by_side.py

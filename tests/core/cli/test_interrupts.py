@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 COMMAND = [sys.executable, "-m", "volfrep"]
-BLOCK = ["block", "--count", "2,2,2", "--cell-size", "5", "--strut-radius", "0.5", "-o", "a.stl"]
+BLOCK = ["block", "--count", "1,1,1", "--cell-size", "5", "--strut-radius", "0.5", "-o", "a.stl"]
 INTERRUPTED = b"volfrep: Interrupted, no file was left half-written.\n"
 needs_unix = pytest.mark.skipif(os.name == "nt", reason="streams of a Unix process")
 

@@ -12,7 +12,7 @@ The first cuts a corner out of a filled part so that its skin, its lattice and t
 seen, each in a colour of its own; the second shows the library's unit cells with their names; the
 third blocks whose cells or struts vary; the fourth the paper's sample, pulled (see docs/solver.md);
 the fifth the load cases of a bracket (see docs/loads.md); the sixth sizes that bracket's struts for
-them, which takes half a minute, and makes the pictures of it (see docs/sizing.md).
+them, which takes minutes, and makes the pictures of it (see docs/sizing.md).
 """
 
 from __future__ import annotations

@@ -9,11 +9,17 @@ import pytest
 import samples
 from volfrep import LatticeSpec, fill
 from volfrep.jobs.infill import Infill
-from volfrep.jobs.sizing import Goal, size
+from volfrep.jobs.sizing import Goal, size, sizing, skin_search
 from volfrep.jobs.sizing.governing import governing_skin
 from volfrep.jobs.sizing.part_model import part_model
 from volfrep.jobs.sizing.skin_search import thickness_there
-from volfrep.jobs.sizing.solid_places import NOWHERE, more_solid, solid_places, solid_stubs
+from volfrep.jobs.sizing.solid_places import (
+    NOWHERE,
+    SolidPlaces,
+    more_solid,
+    solid_places,
+    solid_stubs,
+)
 from volfrep.loads.load_cases import Force, LoadCase, LoadCases, Moment, Support
 from volfrep.loads.regions import InPlane
 from volfrep.mechanics.materials import find_material
@@ -403,3 +409,33 @@ def test_where_the_thickest_skin_is_not_enough_the_part_becomes_solid():
     )
     assert not hollow.sized.holds
     assert not any(place["filled"] for place in hollow.report["skin"]["solid"])
+
+
+@pytest.mark.costly
+@pytest.mark.parametrize("bears", [True, False])
+def test_a_place_is_filled_for_a_strut_only_where_thicker_struts_do_not_bear_its_load_for_less(
+    monkeypatch, bears
+):
+    """As if one place were asked for, once the skin is laid; and struts bore all, or did not."""
+
+    def fill_one(design, model, goal, part):
+        if design.solid is not NOWHERE:
+            return None
+        points = design.problem.skin.points
+        solids = SolidPlaces(points, np.where(np.arange(len(points)) == 0, 3.0, 0.0))
+        field = skin_search._field(design.problem, design.variables, None, solids)
+        return replace(design, spec=replace(design.spec, skin_field=field), solid=solids)
+
+    def search(task, *given, real=sizing._search):
+        found = real(task, *given)
+        holds = bears or task.skin.solid is not NOWHERE
+        return replace(found, sized=replace(found.sized, holds=holds))
+
+    monkeypatch.setattr(sizing, "with_solid_stubs", fill_one)
+    monkeypatch.setattr(sizing, "_search", search)
+    case = LoadCase("end", (Support(on_plane(0, 0.0)),), (Force(on_plane(0, 20.0), (0, 0, -50.0)),))
+    spec = LatticeSpec("CVC", cell_size=10.0, strut_radius=0.5, shell=0.8)
+    goal = Goal(Limits(stress=400.0), thinnest=0.4, skin_thinnest=0.6)
+    part = samples.box((20.0, 10.0, 10.0))
+    made = size(part, spec, LoadCases(TITANIUM, (case,)), goal, most_steps=2, prove_it=False)
+    assert any(place["filled"] for place in made.report["skin"]["solid"]) == (not bears)

@@ -57,13 +57,13 @@ from .skin_search import (
     SkinDesign,
     design_skin,
     governing_thickness,
-    lighter,
     ratios_of,
     skin_peaks,
     thickness_there,
     weighed,
     with_ratios,
     with_solid_stubs,
+    with_this_skin,
 )
 from .solid_places import filled_notes, solid_places
 from .thin_struts import (
@@ -86,8 +86,6 @@ MARGIN, SKINS, SKIN_HOLDS = 0.98, 2, 1.01
 #: So many times with what CalculiX says of stress, where that is beyond the limit; and for so much
 #: less then, as it changes with the skin.
 PROVED_SKINS, CHANGES = 3, 0.98
-#: Struts that grow by more than this with the skin as it is are searched for once more.
-GROWN = 1.05
 #: The part with its skin is made so many times at most, until its mass and solid places are right.
 WEIGHINGS, WEIGHED = 4, 0.005
 
@@ -272,6 +270,11 @@ class _Search:
     taken: Thinned | None
     any_radii: Analysis | None = None
 
+    @property
+    def volume(self) -> float:
+        """mm3, of struts and skin."""
+        return self.sized.analysis.volume + self.model.skin_volume
+
 
 @dataclass(frozen=True, eq=False)
 class _ProvedDesign:
@@ -304,7 +307,7 @@ class _ProvedDesign:
         if not sized.holds:
             uses = self.proof["uses"] if self.proof is not None else sized.analysis.uses
             over = max(uses.values(), default=0.0)
-        return over, sized.analysis.volume + self.search.model.skin_volume
+        return over, self.search.volume
 
 
 def _find_proved(
@@ -375,6 +378,7 @@ def _with_sized_skin(
                 infill.solid, spec, task.loads, goal, task.monitor, task.cache, design,
                 most_steps=most_steps, watch=watched, margin=margin, ratios=task.ratios,
             )  # fmt: skip
+        unfilled: _Task | None = None
         for weighing in range(WEIGHINGS):
             part = Infill(infill.solid, design.spec, monitor=task.monitor, cache=task.cache)
             model = with_ratios(part_model(part, task.loads, goal, task.cache), task.ratios)
@@ -385,6 +389,8 @@ def _with_sized_skin(
             if design.volume is None:
                 if (more := with_solid_stubs(design, model, goal, infill.solid)) is None:
                     break
+                if unfilled is None:
+                    unfilled = replace(task, infill=part, model=model, first=first, skin=design)
                 design = more
                 continue
             volume = model.problem.radii.volume(first) + model.skin_volume
@@ -393,6 +399,11 @@ def _with_sized_skin(
             design = weighed(design, volume, goal.mirrors)
         chosen = replace(task, infill=part, model=model, first=first, skin=design)
         search = _search(chosen, most_steps, watched)
+        if unfilled is not None and search.sized.stopped != "cancelled":
+            # A strut a little over its limit is borne by less if all become a little thicker.
+            other = _search(unfilled, most_steps, watched)
+            if other.sized.holds and (not search.sized.holds or other.volume < search.volume):
+                chosen, search, design = unfilled, other, unfilled.skin
         if limit is None or search.sized.stopped == "cancelled":
             break
         used = max(skin_peaks(search.model, search.sized.analysis)) / limit
@@ -430,7 +441,9 @@ def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | N
             if task.skin is None:
                 whole = _designed(problem, goal, task.first, most_steps, watched)
             else:
-                whole = _with_this_skin(task, task.skin, most_steps, watched)
+                whole = with_this_skin(
+                    task.model, goal.limits, task.first, task.skin, most_steps, watched
+                )
             even = of_less_volume(problem, goal.limits, whole) if goal.limits.any else None
         if even is not None:
             whole = no_worse(whole, even)
@@ -445,18 +458,6 @@ def _search(task: _Task, most_steps: int, watch: Callable[[int, Step], bool] | N
             )
             sized = replace(sized, analysis=found, holds=holds)
     return _Search(model, sized, whole, even, taken, any_radii)
-
-
-def _with_this_skin(task: _Task, skin: SkinDesign, most_steps: int, watch: Watch) -> Sized:
-    """The radii that were found with a skin, as they hold the limits with it as it is."""
-    problem, limits = task.model.problem, task.goal.limits
-    if not limits.any:
-        found, holds = analyse(problem, task.first, limits)[0], True
-    else:
-        found, holds = thicken(problem, limits, task.first)
-        if holds and found.volume > GROWN * problem.radii.volume(task.first):
-            found = lighter(task.model, limits, found, most_steps, watch)
-    return replace(skin.sized, analysis=found, steps=skin.steps, holds=holds)
 
 
 def _notes_of(task: _Task, search: _Search) -> list[str]:

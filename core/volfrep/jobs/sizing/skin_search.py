@@ -19,7 +19,7 @@ from ...design.scattered_field import PointField
 from ...design.spec import LatticeSpec
 from ...loads.load_cases import LoadCases
 from ...mesh.triangle_mesh import TriangleMesh
-from ...sizing.analysis import Analysis, Limits, Problem
+from ...sizing.analysis import Analysis, Limits, Problem, analyse
 from ...sizing.model import SizingModel, with_sized_skin
 from ...sizing.optimise import HOLDS, Sized, Step, Watch, lightest, stiffest, thicken, uniform
 from ...sizing.proof import SHARED, Proved
@@ -44,6 +44,8 @@ _SEARCHES = 2
 #: A skin of less than this part of what is below it does not meet itself: half but for rounding, as
 #: one of even thickness was looked for no deeper than twice that.
 _CLEAR = 0.499
+#: Struts that grow by more than this with the skin as it is are searched for once more.
+_GROWN = 1.05
 #: Between two designs the skin's stress is linear but for this share.
 _CURVED = 0.05
 #: So many in all, where a part becomes solid in more places.
@@ -359,6 +361,33 @@ def governing_thickness(design: SkinDesign, limits: Limits) -> Governing:
     assert skin is not None
     assert isinstance(field, PointField)
     return replace(governed, rows=governed.at(skin.points, field.points))
+
+
+def with_this_skin(
+    model: SizingModel,
+    limits: Limits,
+    first: Floats,
+    design: SkinDesign,
+    most_steps: int,
+    watch: Watch,
+) -> Sized:
+    """The radii that were found with a skin, as they hold the limits with it as it was laid.
+
+    Args:
+        model: with the skin as it is.
+        limits: that are to be held.
+        first: (n,) mm, the radii that were found.
+        design: with them.
+        most_steps: of a search for lighter ones.
+        watch: told of every step.
+    """
+    if not limits.any:
+        found, holds = analyse(model.problem, first, limits)[0], True
+    else:
+        found, holds = thicken(model.problem, limits, first)
+        if holds and found.volume > _GROWN * model.problem.radii.volume(first):
+            found = lighter(model, limits, found, most_steps, watch)
+    return replace(design.sized, analysis=found, steps=design.steps, holds=holds)
 
 
 def lighter(

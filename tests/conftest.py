@@ -42,9 +42,5 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def pytest_collection_finish() -> None:
-    """What was imported and collected stays to the end: Python need not look at it ever again.
-
-    Nor at what is new whenever 700 objects are: most is arrays, which are in no cycles.
-    """
+    """What was imported and collected stays to the end: Python need not look at it ever again."""
     gc.freeze()
-    gc.set_threshold(10_000)

@@ -207,6 +207,8 @@ def test_the_trimmed_lattice_has_the_genus_of_a_boolean_by_others():
     )
     whole = solid ^ ball
     assert ours.volume == pytest.approx(whole.volume(), rel=1e-6)
+    # It counts one shell, whatever there are.
+    assert ours.genus - ours.shells == whole.genus() - 1
 
 
 def test_triangles_of_a_wall_touch_the_boxes_that_hold_their_middles(monkeypatch):

@@ -42,7 +42,7 @@ def pages_given(**variables: str) -> tuple[int, int]:
 @pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="another C library")
 def test_arrays_come_again_in_the_memory_of_those_before() -> None:
     before, after = pages_given()
-    assert before > 10_000, "40 MB, again and again"
+    assert before > 5_000, "40 MB are 10,240 pages, fewer where some are large ones"
     assert after < before / 10
 
 

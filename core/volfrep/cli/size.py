@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 from ..util.errors import Cancelled, VolfrepError
 from ..util.numbers import duration
 from ..util.progress import ProgressCallback
-from ..util.progress_bar import drawn
+from ..util.progress_bar import ProgressBar, drawn
 from .files import read_part
 from .options import SizeOptions, size_options
 from .solve import tell_expected
@@ -174,18 +174,18 @@ def _stopping(progress: ProgressCallback) -> Iterator[ProgressCallback]:
             signal.signal(number, handler)
 
 
-def _naming(progress: ProgressCallback, quiet: bool) -> ProgressCallback:
+def _naming(progress: ProgressBar, quiet: bool) -> ProgressCallback:
     """A progress that also names each stage on standard error where no bar is drawn there."""
-    if quiet or sys.stderr.isatty():
+    if quiet or progress.is_drawn:
         return progress
     before = ""
 
-    def named(fraction: float, stage: str) -> bool | None:
+    def named(fraction: float, stage: str) -> None:
         nonlocal before
         if stage != before:
             print(f"{fraction:.0%}: {stage}", file=sys.stderr, flush=True)
             before = stage
-        return progress(fraction, stage)
+        progress(fraction, stage)
 
     return named
 

@@ -159,7 +159,7 @@ def processes(
     Args:
         count: of the processes; None for as many as `threads` says.
         modules: where what they will be given lies: they import them at once, while this process
-            does something else. None: they import it when they are first given something.
+            does something else. Empty: they import them when they are first given something.
         lost: told, on any thread, how a process has ended that should not have.
         with_this: this process is one of them, so that one less is started.
 

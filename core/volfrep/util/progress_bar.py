@@ -27,6 +27,11 @@ class ProgressBar:
     def __init__(self, file: TextIO | None) -> None:
         self._file, self._last, self._longest = file, 0.0, 0
 
+    @property
+    def is_drawn(self) -> bool:
+        """Whether anybody sees it."""
+        return self._file is not None
+
     def __call__(self, fraction: float, stage: str) -> None:
         """Draw it, but not more often than every tenth of a second."""
         now = time.monotonic()

@@ -465,9 +465,7 @@ def _notes_of(task: _Task, search: _Search) -> list[str]:
     limits, model, sized = task.goal.limits, search.model, search.sized
     notes = [] if sized.holds else [limit_not_held(model.problem, sized.analysis)]
     if task.skin is not None and task.skin.volume is not None:
-        notes += other_mass(
-            sized.analysis.volume + model.skin_volume, task.skin.volume, task.loads.material
-        )
+        notes += other_mass(search.volume, task.skin.volume, task.loads.material)
     limit, is_sized = limits.stress, task.skin is not None
     if limit is None or not is_sized or max(skin_peaks(model, sized.analysis)) > SKIN_HOLDS * limit:
         notes += stressed_skin(model, sized.analysis, limits, is_sized)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...mesh.precision import refuse_lost_corners, single_precision
 from ...mesh.triangle_mesh import TriangleMesh, compact
 from ...util.errors import VolfrepError
-from ...util.files import replacing, write_at
+from ...util.files import check_writable, refuse_full, replacing, write_at
 from ...util.parallel import LocalArray, MappedArray, ParallelBackend, SharedArray
 from ...util.progress import POLL_SECONDS, Monitor
 from ...util.threads import in_threads
@@ -145,13 +145,13 @@ def write_facets(
             written.
         Cancelled: when the monitor says so; no file is left behind.
     """
-    refuse_too_many(count, path)
+    refuse_facets(count, path)
     if executor is not None:
         from ...process.pool import on_this_machine  # of no use to blocks, and slow to import
 
         executor = on_this_machine(executor)
     head = b"binary STL, mm".ljust(HEADER_BYTES, b" ") + np.array(count, "<u4").tobytes()
-    with replacing(path, len(head) + FACET.itemsize * count) as file:
+    with replacing(path) as file:
         file.write(head)
         file.flush()
 
@@ -224,13 +224,14 @@ def write_blocks(path: str, blocks: Placed) -> int:
     return sum(block.count for _, block in blocks)
 
 
-def refuse_too_many(count: int, path: str | os.PathLike[str]) -> None:
-    """Raise a `VolfrepError` where a file cannot count so many facets."""
+def refuse_facets(count: int, path: str | os.PathLike[str]) -> None:
+    """Raise a `VolfrepError` where a file cannot count so many facets or the disk not hold them."""
     if count > MOST_FACETS:
         raise VolfrepError(
             f"Cannot write '{path}': an STL file holds at most {MOST_FACETS:,} triangles, and "
             f"there are {count:,}; use a coarser resolution or fewer cells."
         )
+    refuse_full(check_writable(path), HEADER_BYTES + 4 + FACET.itemsize * count)
 
 
 def merge_corners(corners: NDArray[np.float32]) -> TriangleMesh:

@@ -10,6 +10,7 @@ from volfrep.util.manifold import INSTALL
 
 from .compat import repair_lazy_loader
 from .deps import explain_missing, install_command, missing_optional, missing_packages
+from .engines import python_program
 from .preferences import THREADS, read
 
 
@@ -29,6 +30,9 @@ def require_engine() -> None:
         # What needs it says so, here or in a process beside FreeCAD, with the command for this one.
         os.environ[INSTALL] = install_command(optional)
     repair_lazy_loader()
+    from volfrep.process.worker import has_python, python_beside
     from volfrep.util.threads import use_threads
 
     use_threads(read(THREADS))
+    if not has_python():
+        python_beside(python_program(0))

@@ -50,15 +50,19 @@ def freecads() -> Engines:
 
 def programs(threads: int) -> list[Program]:
     """What can run the engine beside this FreeCAD, the best first."""
+    found = [python_program(threads)]
+    console = _freecad(threads)
+    return found if console is None else [*found, console]
+
+
+def python_program(threads: int) -> Program:
+    """The Python beside this FreeCAD, as a program that runs the engine."""
     from volfrep.process.worker import Program
 
     front = find_home("volfrep.process")
     assert front is not None
-    folders = _package_folders()
-    python = Program((python_executable(),), (front,), folders, warm=_WARM, threads=threads)
-    found = [python]
-    console = _freecad(threads)
-    return found if console is None else [*found, console]
+    command = (python_executable(),)
+    return Program(command, (front,), _package_folders(), warm=_WARM, threads=threads)
 
 
 def _freecad(threads: int) -> Program | None:

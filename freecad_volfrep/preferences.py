@@ -131,8 +131,8 @@ OVERHANG_COLOUR = Colour(
 )
 THREADS = Preference(
     "Threads", "Threads",
-    "For searching nearest points, measuring meshes and writing STL files; automatic: one on "
-    "each core",
+    "For searching nearest points, measuring meshes and writing STL files, and at most so many "
+    "processes that fill a part; automatic: one on each core",
     0, 1, 256, automatic=True,
 )  # fmt: skip
 

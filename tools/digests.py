@@ -41,7 +41,10 @@ import trimesh
 KEPT = Path(__file__).with_suffix(".json")
 COMMAND = Path(sys.executable).with_name("volfrep")
 #: Of a report: what the clock and the machine say, and where files lie.
-PASSING = {"stages", "stage_memory_mb", "peak_memory_mb", "seconds", "made_in_seconds"}
+PASSING = {
+    "stages", "stage_memory_mb", "peak_memory_mb", "workers_memory_mb", "seconds",
+    "made_in_seconds",
+}  # fmt: skip
 
 #: Options of `fill`, and the extension of the file; on a bracket, a plate with holes and a ball.
 ON_EVERY_PART = {

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -15,6 +16,9 @@ import volfrep
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.api import specified
 from volfrep.design.tpms import PeriodicSurface, TpmsSheet
+from volfrep.jobs import workers
+from volfrep.process.pool import WorkerPool
+from volfrep.trim import octant_groups
 
 BOX = {"cell": "CVC", "cell_size": 10, "strut_radius": 1, "shell": 2, "resolution": 10}
 
@@ -66,6 +70,31 @@ def test_a_part_saves_itself(tmp_path: Path, part: volfrep.Part, kind: str) -> N
     part.save(tmp_path / f"light.{kind}")
     again = volfrep.read_solid(tmp_path / f"light.{kind}")
     assert again.volume == pytest.approx(part.mesh.volume, rel=1e-4)
+
+
+def test_workers_of_a_fill_stay_for_the_next_one_and_the_mesh_is_the_same(
+    tmp_path: Path, part: volfrep.Part, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(octant_groups, "GROUP_TRIANGLES", 6_000)
+    alone = volfrep.fill(samples.box(), cache=part.cache, workers=1, **BOX)
+    with workers.kept_workers(2) as kept:
+        assert isinstance(kept, WorkerPool)
+        assert kept.elsewhere(int).result() == 0
+    assert alone.report.workers_memory_mb == 0
+    for count in (2, None):
+        monkeypatch.setattr(workers, "worth_processes", lambda *_: 2)
+        one = volfrep.fill(samples.box(), cache=part.cache, workers=count, **BOX)
+        assert one.result.mesh.vertices.tobytes() == alone.result.mesh.vertices.tobytes()
+        assert one.result.mesh.triangles.tobytes() == alone.result.mesh.triangles.tobytes()
+        assert one.report.workers_memory_mb > 10 or not sys.platform.startswith("linux")
+    with workers.kept_workers(2) as again:
+        assert again is kept
+    assert len(kept.workers) == 1
+    workers.end_kept_workers()
+    assert not kept.is_open
+    one.save(tmp_path / "after.stl")
+    with pytest.raises(VolfrepError, match="leave 'workers' out"):
+        volfrep.fill(samples.box(), workers=2, executor=kept, **BOX)
 
 
 def test_a_part_is_held_against_a_printer(part: volfrep.Part) -> None:

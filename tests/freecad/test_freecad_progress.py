@@ -8,13 +8,19 @@ import FreeCAD as App
 import Part
 import pytest
 
+from conftest import SMALL
+from freecad_volfrep import make_lattice_infill
+from freecad_volfrep.deps import python_executable
 from freecad_volfrep.engines import freecads, programs
 from freecad_volfrep.features.jobs.job import Job, State
 from freecad_volfrep.features.jobs.progress import run_job
 from freecad_volfrep.features.jobs.screen import is_asked_by_user
+from freecad_volfrep.preferences import THREADS, write
+from volfrep.jobs import workers
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.process.engines import Engines
 from volfrep.process.worker import Call
+from volfrep.process.worker import this_python as beside
 from volfrep.util.errors import VolfrepError
 from volfrep.util.threads import threads
 
@@ -50,6 +56,27 @@ def test_the_processes_of_the_window_find_the_engine():
         assert missed == []
         assert number != os.getpid()
         assert threads_there == 1
+
+
+def test_a_large_recompute_has_workers_that_stay_as_many_as_threads_are_preferred(
+    doc, box, monkeypatch
+):
+    monkeypatch.setattr(workers, "WORTH_WORKER", 1)
+    obj = make_lattice_infill(doc, box, **SMALL)
+    doc.recompute()
+    with workers.kept_workers(2) as kept:
+        assert kept.elsewhere(os.getpid).result() in {each.number for each in kept.workers}
+        program = kept.elsewhere(beside).result()
+    assert program.command == (python_executable(),), "not this FreeCAD, which opens a window"
+    write(THREADS, 1)
+    try:
+        obj.StrutRadius = 0.9
+        doc.recompute()
+        assert kept.is_open, "nobody has asked for workers"
+    finally:
+        write(THREADS, THREADS.default)
+        workers.end_kept_workers()
+    assert not any(each.is_alive for each in kept.workers)
 
 
 @pytest.mark.costly

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import contextmanager
 from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -38,6 +39,7 @@ from ..util.errors import VolfrepError, brief
 from ..util.numbers import whole
 from ..util.progress import ProgressCallback
 from ..util.progress_bar import shown
+from ..util.threads import threads
 from .part import Part
 from .wanted_spec import accepted, specified
 
@@ -48,12 +50,14 @@ if TYPE_CHECKING:
     from ..design.parameters.typed import Keywords, SizeKeywords
     from ..jobs.coupons import Coupon
     from ..jobs.homogenised import HomogenisedPart
+    from ..jobs.infill import Infill
     from ..jobs.sizing import Building, Printing
     from ..jobs.slicer_infill import SlicerInfill
     from ..jobs.slices import Layers
     from ..jobs.solving import Solved
     from ..loads.load_cases import LoadCases
     from ..output.bare_surface import BareSurface
+    from ..output.sources import FilledPart
     from ..reports.orientation import Orientations
     from ..reports.result import Result
 
@@ -66,6 +70,7 @@ def fill(
     material: str | None = None,
     progress: ProgressCallback | bool | None = None,
     cache: StageCache | None = None,
+    workers: int | None = None,
     executor: Executor | None = None,
     max_triangles: int | None = None,
     max_size: float | None = None,
@@ -86,7 +91,11 @@ def fill(
         progress: True for a bar in a terminal or a notebook; or a function that is called with the
             fraction done and the stage, and cancels by returning False.
         cache: keeps the stages between calls.
-        executor: cuts the lattice at the wall on its workers; the mesh is the same with any.
+        workers: processes that cut the lattice at the wall; None for this one, and one more for
+            every 150,000 triangles, at most one a core. 1: threads of this one alone. They stay
+            for the next call, and end with this process, or after two minutes without one. The
+            mesh is the same with any number.
+        executor: cuts it on its workers in their place.
         max_triangles: of the mesh: facets are as much coarser as it takes; the report's warnings
             tell what that costs in mm.
         max_size: of its binary STL in megabytes, in the same way.
@@ -117,10 +126,13 @@ def fill(
     from ..jobs.targets import solve_target
     from ..output.file_size import fill_within
     from ..output.form import find_form
-    from ..output.sources import FilledPart
 
     cache = _cache(cache)
     check_kind("executor", executor, (Executor, type(None)), "an Executor of concurrent.futures")
+    if workers is not None:
+        whole("workers", workers, 1, 1000)
+    if workers is not None and executor is not None:
+        raise VolfrepError("An 'executor' has workers of its own: leave 'workers' out.")
     with shown(progress) as callback:
         solid, wanted = _read_call(part, unit, callback, spec, dict(parameters), material)
         notes = []
@@ -134,12 +146,44 @@ def fill(
             notes.append(note)
 
         def make(spec: LatticeSpec) -> FilledPart:
-            infill = solve_target(solid, spec, progress=callback, cache=cache, executor=executor)
-            return FilledPart(infill, cache)
+            with _workers(solid, spec, workers, executor) as helping:
+                infill = solve_target(solid, spec, progress=callback, cache=cache, executor=helping)
+                return _filled(infill, cache)
 
         limits = limits_of(service, max_triangles, max_size)
         made, kept = fill_within(solid, wanted, limits, find_form("part.stl"), make)
         return Part(_add_notes(made.result, (*notes, *kept)), made.spec, solid, cache, made)
+
+
+@contextmanager
+def _workers(
+    solid: Solid, spec: LatticeSpec, count: int | None, executor: Executor | None
+) -> Iterator[Executor | None]:
+    """An executor that is given; otherwise so many workers, or as many as a fill is worth."""
+    if executor is not None:
+        yield executor
+        return
+    from ..jobs.workers import kept_workers, worth_processes
+
+    if count is None:
+        count = 1
+        if threads() > 1:
+            from ..design.forecast import forecast_fill
+            from ..jobs.kinds import lattice_kind
+
+            rough = lattice_kind(spec).roughly_solved(solid)
+            count = worth_processes(spec, forecast_fill(solid, rough))
+    with kept_workers(count) as kept:
+        yield kept
+
+
+def _filled(infill: Infill, cache: StageCache) -> FilledPart:
+    """A part whose mesh is made, as long as its workers are there."""
+    from ..output.sources import FilledPart
+
+    filled = FilledPart(infill, cache)
+    _ = filled.result
+    return filled
 
 
 def _add_notes(result: Result, notes: Sequence[str]) -> Result:
@@ -169,6 +213,7 @@ def size(
     unit: str | None = None,
     progress: ProgressCallback | bool | None = None,
     cache: StageCache | None = None,
+    workers: int | None = None,
     max_triangles: int | None = None,
     max_size: float | None = None,
     service: str | None = None,
@@ -202,6 +247,7 @@ def size(
         unit: as of `fill`.
         progress: as of `fill`.
         cache: as of `fill`.
+        workers: as of `fill`; radii are found without.
         max_triangles: as of `fill`; radii are found before, and stay.
         max_size: as of `fill`.
         service: as of `fill`.
@@ -237,9 +283,10 @@ def size(
     from ..jobs.sizing import size as size_struts
     from ..output.file_size import fill_within
     from ..output.form import find_form
-    from ..output.sources import FilledPart
 
     whole("steps", steps, 1, 100_000)
+    if workers is not None:
+        whole("workers", workers, 1, 1000)
     limits = limits_of(service, max_triangles, max_size)
     if prove not in (None, "file"):
         raise VolfrepError(f"'prove' is 'file' or nothing, not {brief(prove)}.")
@@ -267,7 +314,9 @@ def size(
         )  # fmt: skip
 
         def fill(spec: LatticeSpec) -> FilledPart:
-            return FilledPart(Infill(solid, spec, progress=callback, cache=cache), cache)
+            with _workers(solid, spec, workers, None) as helping:
+                infill = Infill(solid, spec, progress=callback, cache=cache, executor=helping)
+                return _filled(infill, cache)
 
         filled, kept = fill_within(solid, made.spec, limits, find_form("part.stl"), fill)
         if prove == "file":

@@ -38,46 +38,32 @@ if TYPE_CHECKING:
     from ..reports.printability import PrintReport
     from ..reports.report import Report
 
-#: Every so many triangles are worth a process that helps to make them.
-WORTH_WORKER = 150_000
-#: Where what workers are given lies.
-MODULES = (
-    "volfrep.trim.boolean_trim", "volfrep.octants.octant_mesh", "volfrep.io.write.stl",
-    "scipy.spatial",
-)  # fmt: skip
-
 
 @contextmanager
-def _workers(options: FillOptions, triangles: int) -> Iterator[Executor | None]:
-    """Those that the options ask for; where they do not, as many as so many triangles are worth."""
+def _workers(options: FillOptions, worth: int) -> Iterator[Executor | None]:
+    """Those that the options ask for; where they do not, as many processes as it is worth."""
+    from ..jobs.workers import MODULES, lost_worker
     from ..process.cluster import dask_workers
     from ..process.pool import processes
-    from ..util.threads import threads
 
     if options.scheduler is not None:
         with dask_workers(options.scheduler) as executor:
             yield executor
         return
-    count = options.workers
-    if count == 1:
+    count = worth if options.workers is None else options.workers
+    if options.workers == 1:
         from concurrent.futures import ThreadPoolExecutor
 
-        with ThreadPoolExecutor(1) as executor:  # groups one after the other
-            yield executor
+        with ThreadPoolExecutor(1) as alone:  # groups one after the other
+            yield alone
         return
-    # They start while this process goes on.
-    worth = 1 + triangles // WORTH_WORKER
-    modules = MODULES if worth > 1 else ()
-    is_automatic = count is None
-    if count is None:
-        count = min(threads(), worth)
-    with processes(count, modules, _warn_lost, with_this=is_automatic) as executor:
-        yield executor
 
+    def warn_lost(ending: Ending) -> None:
+        print(f"volfrep: {lost_worker(ending)}", file=sys.stderr, flush=True)
 
-def _warn_lost(ending: Ending) -> None:
-    """Tell at once of a worker that has ended; what it did is done again."""
-    print(f"volfrep: A worker has ended {ending}: the others go on.", file=sys.stderr, flush=True)
+    modules = MODULES if worth > 1 else ()  # imported while this process goes on
+    with processes(count, modules, warn_lost, with_this=options.workers is None) as beside:
+        yield beside
 
 
 def run_fill(given: argparse.Namespace) -> None:
@@ -90,6 +76,7 @@ def run_fill(given: argparse.Namespace) -> None:
     from ..design.forecast import forecast_fill, forecast_fill_beams
     from ..jobs.kinds import lattice_kind
     from ..jobs.targets import solve_target
+    from ..jobs.workers import worth_processes
     from ..output.sources import FilledPart
     from ..process.pool import let_go
 
@@ -109,9 +96,8 @@ def run_fill(given: argparse.Namespace) -> None:
         if options.form.is_beams_alone:
             told = str(forecast_fill_beams(solid, rough))
         print(f"Expected: {told}.", flush=True)
-    is_cut = meshed and spec.kind.is_cut_in_groups and spec.output != "domain"
-    cut = expected.triangles if is_cut else 0
-    with _workers(options, cut) as executor, drawn(options.quiet) as progress:
+    worth = worth_processes(spec, expected) if meshed else 1
+    with _workers(options, worth) as executor, drawn(options.quiet) as progress:
         made = solve_target(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
             streamed=options.is_file_alone,

@@ -54,9 +54,15 @@ def print_summary(
         ("mass", f"{report.mass_g:,.2f} g"),
         *_target(report),
         *_removal_rows(report),
-        ("time", f"{seconds:.2f} s, {report.peak_memory_mb:,.0f} MB of memory"),
+        ("time", f"{seconds:.2f} s, {_memory(report)}"),
         *(printing.rows() if printing is not None else ()),
     )
+
+
+def _memory(report: Report) -> str:
+    beside = f", and {report.workers_memory_mb:,.0f} MB of workers"
+    told = beside if report.workers_memory_mb else ""
+    return f"{report.peak_memory_mb:,.0f} MB of memory{told}"
 
 
 def print_rows(*rows: tuple[str, str]) -> None:

@@ -25,6 +25,7 @@ from ..util.cache import StageCache
 from ..util.progress import ProgressCallback
 from .kinds import lattice_kind
 from .targets import fill_with_target
+from .workers import kept_workers, worth_processes
 
 
 def fill(
@@ -94,6 +95,7 @@ def filled_mesh(
     show: tuple[int, int] | None = None,
     progress: ProgressCallback | None = None,
     cache: StageCache | None = None,
+    executor: Executor | None = None,
 ) -> FilledMesh:
     """Check a solid, fill it, make one mesh of the result, and tell its triangles apart.
 
@@ -105,13 +107,14 @@ def filled_mesh(
             for each kind of them where there are more.
         progress: as of `fill`.
         cache: as of `fill`.
+        executor: as of `fill`.
 
     Raises:
         VolfrepError: as `check_solid` and `fill`.
         Cancelled: the callback said so.
     """
     checked = check_solid(solid, name)
-    result = fill(checked, spec, progress=progress, cache=cache)
+    result = fill(checked, spec, progress=progress, cache=cache, executor=executor)
     mesh = result.mesh
     kinds = kinds_of_triangles(mesh, checked, spec)
     shown = None if show is None else _display_mesh(mesh, kinds, *show)
@@ -130,6 +133,8 @@ def forecast_and_fill(
 ) -> tuple[Forecast, FilledMesh | None]:
     """What a solid's part will come to, and as `filled_mesh` unless that is too much.
 
+    Workers help with what is worth some, and stay for the next call (`jobs.workers`).
+
     Args:
         solid: as it came, mm.
         name: of the solid.
@@ -146,7 +151,10 @@ def forecast_and_fill(
     forecast = forecast_fill(solid, lattice_kind(spec).roughly_solved(solid))
     if most is not None and forecast.triangles > most:
         return forecast, None
-    filled = filled_mesh(solid, name, spec, show=show, progress=progress, cache=cache)
+    with kept_workers(worth_processes(spec, forecast)) as executor:
+        filled = filled_mesh(
+            solid, name, spec, show=show, progress=progress, cache=cache, executor=executor
+        )
     return forecast, filled
 
 

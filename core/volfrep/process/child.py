@@ -199,6 +199,10 @@ class Child:
         self._let_go()
         return code, by_itself
 
+    def disown(self) -> None:
+        """In a process forked from the one whose child it is: do not keep it from ending."""
+        self._let_go()
+
     def _let_go(self) -> None:
         """Close what it listens to, so that those that it has started end as well."""
         if self.input is not None:

@@ -6,22 +6,26 @@ Calls that hold Python's lock, such as those of the Boolean library, run side by
 
 from __future__ import annotations
 
+import itertools
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
-from queue import SimpleQueue
+from queue import PriorityQueue
 from typing import Any, TypeVar
 
 from ..util.errors import VolfrepError
 from ..util.parallel import ParallelBackend
-from ..util.progress import POLL_SECONDS, Monitor
+from ..util.progress import POLL_SECONDS, Monitor, peak_memory_of
 from ..util.threads import threads
 from .worker import Call, Ending, Program, Worker, WorkerLost, this_python
 
 T = TypeVar("T")
 
+#: This process makes calls beside its workers where these are fewer: others would wait for it with
+#: what they have made, as it holds Python's lock in most of a call.
+FEW = 4
 #: After so many have ended there is something wrong with all of them, and no other one is started.
 MOST_LOST = 8
 
@@ -41,9 +45,9 @@ class WorkerPool(ThreadPoolExecutor):
         program: what the workers are.
         count: how many; those of a program that is to be warm start now, while this process does
             something else, others when they are needed.
-        lost: called, on any thread, with how a worker has ended.
-        with_this: this process makes calls as well, on a thread: one for each worker that is
-            ready, and one more. The workers start now.
+        lost: called, on any thread, with how a worker has ended that should not have.
+        with_this: this process makes calls as well, on a thread, where no worker is idle. The
+            workers start now.
     """
 
     def __init__(
@@ -55,24 +59,39 @@ class WorkerPool(ThreadPoolExecutor):
         with_this: bool = False,
     ) -> None:
         super().__init__(count + with_this, "volfrep-worker")
-        self._program, self._lost, self._losses = program, lost, 0
+        self._program, self.lost, self._losses = program, lost, 0
         self._changing = threading.Lock()
         self._is_open = True
+        self._memory_mb = 0.0
         self.workers: list[Worker] = []
-        self._idle: SimpleQueue[Worker | _ThisProcess | None] = SimpleQueue()
-        self._waiting: list[tuple[Future[Any], Call]] | None = [] if count and with_this else None
+        self._idle: PriorityQueue[tuple[bool, int, Worker | _ThisProcess | None]] = PriorityQueue()
+        self._turn = itertools.count()
+        start_now = bool(program.warm) or with_this
+        self._waiting: list[tuple[Future[Any], Call]] | None = [] if count and start_now else None
         for _ in range(count):
-            if with_this:  # whose thread goes on while they start
-                super().submit(self._greeted, self._started())
+            if start_now:  # on a thread, and this one goes on
+                super().submit(self._greeted)
             else:
-                self._idle.put(self._started() if program.warm else None)
+                self._rests(None)
         if with_this:
-            self._idle.put(_ThisProcess())
+            self._rests(_ThisProcess())
 
     @property
     def is_open(self) -> bool:
         """Whether it still takes calls."""
         return self._is_open
+
+    @property
+    def is_sound(self) -> bool:
+        """Whether it takes calls, and no worker has ended that should not have."""
+        return self._is_open and not self._losses
+
+    @property
+    def memory_mb(self) -> float:
+        """Peak resident memory of its workers together, MB; 0 where the system does not tell."""
+        if self._is_open:
+            self._memory_mb = sum(peak_memory_of(each.number) for each in self.workers)
+        return self._memory_mb
 
     def submit(self, function: Callable[..., Any], /, *given: Any, **named: Any) -> Future[Any]:
         """As of any executor; the call fails with `WorkerLost` where its worker ends.
@@ -97,46 +116,70 @@ class WorkerPool(ThreadPoolExecutor):
                 return future
         return self.submit(function, *given)
 
-    def _greeted(self, worker: Worker) -> None:
-        worker.greets()
+    def _greeted(self) -> None:
+        """Start a worker; the first one that is ready makes what waits for one."""
+        worker: Worker | None = None
+        try:
+            worker = self._started()
+            worker.greets()
+        except WorkerLost as lost:
+            self._tell(lost)
         with self._changing:
             waiting, self._waiting = self._waiting or [], None
         for future, call in waiting:
             if future.set_running_or_notify_cancel():
                 try:
+                    worker = worker or self._started()
                     future.set_result(worker.answer(call))
                 except Exception as error:
                     future.set_exception(error)  # one that is lost is told with its next call
-        self._idle.put(worker)
+        self._rests(worker)
+
+    def _rests(self, worker: Worker | _ThisProcess | None) -> None:
+        """Keep one for the next call: this process comes last."""
+        self._idle.put((isinstance(worker, _ThisProcess), next(self._turn), worker))
 
     def _made(self, call: Call) -> Any:
-        worker = self._idle.get()  # there are as many as threads
+        worker = self._idle.get()[-1]  # there are as many as threads
         try:
             if worker is None:
                 worker = self._started()
             return worker.answer(call)
         except WorkerLost as lost:
-            if worker is not None and self._is_open:
-                with self._changing:
-                    self._losses += 1
-                self._lost(lost.ending)
             worker = None
+            self._tell(lost)
             raise
         finally:
-            self._idle.put(worker)
+            self._rests(worker)
+
+    def _tell(self, lost: WorkerLost) -> None:
+        """Tell of one that has ended, unless that was wanted, or too many have."""
+        if self._is_open and self._losses < MOST_LOST:
+            with self._changing:
+                self._losses += 1
+            self.lost(lost.ending)
 
     def _started(self) -> Worker:
         with self._changing:
             if not self._is_open or self._losses >= MOST_LOST:
                 raise WorkerLost(Ending("before it began"))
-            worker = Worker(self._program)
+            try:
+                worker = Worker(self._program)
+            except OSError as error:
+                raise WorkerLost(Ending("before it began", str(error))) from error
             self.workers.append(worker)
             return worker
+
+    def disown(self) -> None:
+        """In a process forked from the one whose it is: that one sees to the workers' end."""
+        for worker in self.workers:
+            worker.disown()
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """Take nothing more; with `cancel_futures` the workers end, whatever they do."""
         if cancel_futures:
             with self._changing:
+                self._memory_mb = self.memory_mb
                 self._is_open = False
             for worker in self.workers:
                 worker.kill()
@@ -161,28 +204,52 @@ def processes(
         modules: where what they will be given lies: they import them at once, while this process
             does something else. Empty: they import them when they are first given something.
         lost: told, on any thread, how a process has ended that should not have.
-        with_this: this process is one of them, so that one less is started.
+        with_this: as of `pool_of`.
 
     Raises:
         VolfrepError: fewer than one is wanted.
     """
-    count = threads() if count is None else count
-    if count < 1:
-        raise VolfrepError(f"At least 1 worker is needed, not {count}.")
-    if count == 1:
-        yield None
-        return
-    each = max(1, threads() // count)
-    pool = WorkerPool(this_python(each, *modules), count - with_this, lost, with_this=with_this)
+    pool = pool_of(threads() if count is None else count, modules, lost, with_this=with_this)
     try:
         yield pool
     finally:
-        pool.shutdown(cancel_futures=True)
+        if pool is not None:
+            pool.shutdown(cancel_futures=True)
+
+
+def pool_of(
+    count: int,
+    modules: Sequence[str],
+    lost: Callable[[Ending], None],
+    *,
+    with_this: bool = False,
+) -> WorkerPool | None:
+    """So many processes, as of `processes`, which are not ended; None where that is one.
+
+    Args:
+        count: of the processes.
+        modules: as of `processes`.
+        lost: as of `processes`.
+        with_this: where they are few this process is one of them, so that one less is started.
+
+    Raises:
+        VolfrepError: as `processes`.
+    """
+    if count < 1:
+        raise VolfrepError(f"At least 1 worker is needed, not {count}.")
+    if count == 1:
+        return None
+    with_this = with_this and count <= FEW
+    program = this_python(max(1, threads() // count), *modules)
+    return WorkerPool(program, count - with_this, lost, with_this=with_this)
 
 
 def on_this_machine(executor: Executor | None) -> WorkerPool | None:
-    """An executor of processes of this machine, which see its files; None for any other."""
-    return executor if isinstance(executor, WorkerPool) else None
+    """An executor of processes of this machine, which see its files; None for any other one.
+
+    And once they are let go.
+    """
+    return executor if isinstance(executor, WorkerPool) and executor.is_open else None
 
 
 class WorkerBackend(ParallelBackend):
@@ -195,6 +262,11 @@ class WorkerBackend(ParallelBackend):
     def uses_processes(self) -> bool:
         """As of any backend."""
         return self._executor.is_open
+
+    @property
+    def memory_mb(self) -> float:
+        """As of any backend, those that were let go among them."""
+        return self._executor.memory_mb
 
     def starmap(self, function: Callable[..., T], given: Iterable[tuple[Any, ...]]) -> Iterator[T]:
         """As of any backend, a few calls ahead; what a worker was lost with is made here."""

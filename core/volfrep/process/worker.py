@@ -17,7 +17,7 @@ import tempfile
 import threading
 import weakref
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -41,6 +41,8 @@ try:
     from volfrep.util.threads import one_for_matrices
     one_for_matrices()
     {prelude}
+    from volfrep.process.worker import Program, python_beside
+    python_beside({program!r})
     from volfrep.process.server import serve
     serve({folder!r}, {threads!r}, {warm!r})
 except BaseException:
@@ -143,9 +145,29 @@ class Program:
             worker.end()
 
 
+#: What makes calls beside this process, once that was said.
+_beside: list[Program] = []
+
+
+def python_beside(program: Program) -> None:
+    """Say what makes calls beside this process: of a worker what it is itself.
+
+    A program that has a Python built in is none, and says which one is.
+    """
+    _beside[:] = [program]
+
+
 def this_python(threads: int = 0, *warm: str) -> Program:
-    """The Python that runs this process, with what it finds."""
+    """The Python that runs this process, with what it finds; or what was said to be beside it."""
+    if _beside:
+        return replace(_beside[0], threads=threads, warm=warm)
     return Program((sys.executable,), tuple(filter(None, sys.path)), warm=warm, threads=threads)
+
+
+def has_python() -> bool:
+    """Whether `this_python` is one: other programs with a Python in them would open a window."""
+    name = Path(sys.executable or "").name.lower()
+    return bool(_beside) or name.startswith(("python", "pypy"))
 
 
 class Worker:
@@ -167,6 +189,7 @@ class Worker:
                 folder=str(self._folder),
                 threads=program.threads,
                 warm=program.warm,
+                program=program,
             ),
             encoding="utf-8",
         )
@@ -257,6 +280,11 @@ class Worker:
         """End the process; whoever waits for a call's answer sees to the rest."""
         self._child.kill()
 
+    def disown(self) -> None:
+        """In a process forked from the one whose it is: that one sees to its end and its files."""
+        self._gone.detach()
+        self._child.disown()
+
     def end(self, patience: float = 0.0) -> Ending:
         """End the process, whatever it does, and its files; how it has ended.
 
@@ -265,6 +293,7 @@ class Worker:
         """
         code, ended_itself = self._child.wait(patience)
         last = self._last_words() if ended_itself else ""
+        self._child.output.close()
         self._gone()
         return Ending(how_ended(code), last)
 

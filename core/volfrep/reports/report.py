@@ -42,6 +42,8 @@ class Report:
         work: what was done, counted: walls found, kinds of octants meshed, triangles laid,
             triangles into the Boolean, bytes written; what was not done is not there.
         peak_memory_mb: of the process.
+        workers_memory_mb: of its workers, each at its own peak, together; 0 where there are none,
+            or the system does not tell.
         spec: the specification, as plain values.
         target: what the radius was chosen for, what was reached, and `strut_radius_mm`; None
             where the radius was given.
@@ -88,6 +90,7 @@ class Report:
     spec: dict[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     target: dict[str, Any] | None = None
+    workers_memory_mb: float = 0.0
 
     @property
     def lattice(self) -> str:

@@ -115,6 +115,7 @@ def report_of(
         stage_memory_mb=dict(monitor.memory_mb),
         work=dict(monitor.work),
         peak_memory_mb=peak_memory_mb(),
+        workers_memory_mb=monitor.backend.memory_mb,
         spec=spec.as_dict(),
         warnings=spec.notes + warnings,
         **removed,

@@ -102,6 +102,11 @@ class ParallelBackend:
         """Whether other processes of this machine make the calls."""
         return False
 
+    @property
+    def memory_mb(self) -> float:
+        """Peak resident memory of these processes together, MB, where the system tells."""
+        return 0.0
+
     def starmap(self, function: Callable[..., T], given: Iterable[tuple[Any, ...]]) -> Iterator[T]:
         """What a function of a module makes of each tuple of arguments, in their order."""
         return in_threads(lambda each: function(*each), given)

@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from concurrent.futures import TimeoutError as FutureTimeoutError
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TypeVar
 
 from .errors import Cancelled
@@ -106,14 +106,21 @@ def release_memory() -> None:
             trim(ctypes.c_size_t(0))
 
 
+def peak_memory_of(process: int | str) -> float:
+    """Peak resident memory of a process so far, in MB (0 where Linux' /proc does not tell)."""
+    with suppress(OSError), open(f"/proc/{process}/status", errors="replace") as file:
+        for line in file:
+            if line.startswith("VmHWM:"):
+                return int(line.split()[1]) / 1024.0
+    return 0.0
+
+
 def peak_memory_mb() -> float:
     """Peak resident memory of this process so far, in MB (0 where the system does not tell)."""
-    if sys.platform.startswith("linux"):
-        # getrusage would also count the process that started this one, up to its exec.
-        with open("/proc/self/status", encoding="ascii", errors="replace") as file:
-            for line in file:
-                if line.startswith("VmHWM:"):
-                    return int(line.split()[1]) / 1024.0
+    # Of Linux: getrusage would also count the process that started this one, up to its exec.
+    told = peak_memory_of("self")
+    if told:
+        return told
     if sys.platform == "win32":
         import ctypes
 

@@ -3048,8 +3048,8 @@ etwa {triangles} Dreiecke, {size} MB als STL, {seconds} s Rechenzeit</translatio
       <translation>Facetten entlang der Kante einer Zelle; automatisch: nach der Abweichung gewählt</translation>
     </message>
     <message>
-      <source>For searching nearest points, measuring meshes and writing STL files; automatic: one on each core</source>
-      <translation>Zum Suchen nächster Punkte, Messen von Netzen und Schreiben von STL-Dateien; automatisch: einer auf jedem Kern</translation>
+      <source>For searching nearest points, measuring meshes and writing STL files, and at most so many processes that fill a part; automatic: one on each core</source>
+      <translation>Zum Suchen nächster Punkte, Messen von Netzen und Schreiben von STL-Dateien, und höchstens so viele Prozesse, die ein Bauteil füllen; automatisch: einer auf jedem Kern</translation>
     </message>
     <message>
       <source>In Section View</source>

@@ -3048,8 +3048,8 @@ circa {triangles} triangoli, {size} MB come STL, {seconds} s di calcolo</transla
       <translation>Faccette lungo lo spigolo di una cella; automatico: scelte in base allo scostamento</translation>
     </message>
     <message>
-      <source>For searching nearest points, measuring meshes and writing STL files; automatic: one on each core</source>
-      <translation>Per cercare i punti più vicini, misurare mesh e scrivere file STL; automatico: uno per ogni core</translation>
+      <source>For searching nearest points, measuring meshes and writing STL files, and at most so many processes that fill a part; automatic: one on each core</source>
+      <translation>Per cercare i punti più vicini, misurare mesh e scrivere file STL, e al massimo altrettanti processi per riempire un pezzo; automatico: uno per ogni core</translation>
     </message>
     <message>
       <source>In Section View</source>

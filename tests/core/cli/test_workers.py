@@ -20,12 +20,12 @@ import pytest
 import command
 import samples
 import volfrep
-import volfrep.cli.fill
 from clusters import WORKERS, worker
 from clusters import cluster as cluster
 from volfrep import LatticeSpec, VolfrepError
 from volfrep.io.solid import check_solid, read_solid
 from volfrep.io.write.stl import write_stl
+from volfrep.jobs import workers as fill_workers
 from volfrep.jobs.pipeline import fill as fill_solid
 from volfrep.mesh.quality import measure
 from volfrep.process import cluster as dask
@@ -74,9 +74,9 @@ def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
     monkeypatch.setattr(pool, "processes", nobody)
     monkeypatch.setattr(threads, "_wanted", 5)
     for worth, given in ((10**9, ()), (10**9, ("--workers", 3)), (1, ()), (1, ("--workers", 3))):
-        monkeypatch.setattr(volfrep.cli.fill, "WORTH_WORKER", worth)
+        monkeypatch.setattr(fill_workers, "WORTH_WORKER", worth)
         assert fill(part, tmp_path / "out.stl", "--quiet", "--cell-size", 12, *given) == 2
-    modules = volfrep.cli.fill.MODULES
+    modules = fill_workers.MODULES
     assert asked == [(1, (), True), (3, (), False), (5, modules, True), (3, modules, False)]
 
 
@@ -91,8 +91,8 @@ def test_as_many_workers_as_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> No
         pass
     with pool.processes(2, ["volfrep.trim.group_cut"]) as executor:
         assert isinstance(executor, pool.WorkerPool)
-        assert len(executor.workers) == 2, "both start at once"
         assert "volfrep.trim.group_cut" in executor.submit(_modules).result(), "before it is asked"
+        assert len(executor.workers) == 2, "both start at once"
 
 
 @pytest.mark.slow

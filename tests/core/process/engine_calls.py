@@ -11,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from volfrep.process.kept_pool import KeptPool
 from volfrep.process.programs import run_program
 from volfrep.util.cache import StageCache
 from volfrep.util.errors import Cancelled, VolfrepError
@@ -121,3 +122,13 @@ def number_after(seconds: float) -> int:
 def sleep(seconds: float) -> None:
     """Do nothing so long."""
     time.sleep(seconds)
+
+
+def number_of_kept(told: str, *, progress: Callable[[float, str], bool]) -> None:
+    """Keep a worker in this process, leave its number and its folder in a file, and wait."""
+    kept = KeptPool(())
+    with kept.lent(2) as workers:
+        assert workers is not None
+        beside = workers.elsewhere(os.getpid).result()
+        Path(told).write_text(f"{beside} {workers.workers[0]._folder}.")
+    hold(AT_MOST, progress=progress)

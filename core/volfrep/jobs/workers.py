@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The worker processes of fills: how many a lattice is worth, and those that stay for the next one.
+
+A job of its own, such as the command's, starts them for itself (`process.pool.processes`).
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from ..process.kept_pool import KeptPool
+from ..process.worker import Ending
+from ..util.errors import VolfrepError
+from ..util.threads import threads
+
+if TYPE_CHECKING:
+    from ..design.forecast import Forecast
+    from ..design.spec import LatticeSpec
+
+#: Every so many triangles are worth a process that helps to make them.
+WORTH_WORKER = 150_000
+#: Where what workers are given lies.
+MODULES = (
+    "volfrep.trim.boolean_trim", "volfrep.octants.octant_mesh", "volfrep.io.write.stl",
+    "scipy.spatial",
+)  # fmt: skip
+
+_kept = KeptPool(MODULES)
+
+
+def worth_processes(spec: LatticeSpec, expected: Forecast) -> int:
+    """How many processes a fill is worth, this one among them: at most one a core."""
+    is_cut = spec.kind.is_cut_in_groups and spec.output != "domain"
+    return min(threads(), 1 + int(expected.triangles) // WORTH_WORKER) if is_cut else 1
+
+
+@contextmanager
+def kept_workers(count: int) -> Iterator[Executor | None]:
+    """So many processes for a fill, this one among them, which stay for the next; None for one.
+
+    Raises:
+        VolfrepError: fewer than one is wanted.
+    """
+    if count < 1:
+        raise VolfrepError(f"At least 1 worker is needed, not {count}.")
+    with _kept.lent(count, _warn_lost) as executor:
+        yield executor
+
+
+def end_kept_workers() -> None:
+    """Let go of those that no fill uses now."""
+    _kept.end()
+
+
+def lost_worker(ending: Ending) -> str:
+    """What is said of a worker that has ended; what it did is done again."""
+    return f"A worker has ended {ending}: the others go on."
+
+
+def _warn_lost(ending: Ending) -> None:
+    warnings.warn(lost_worker(ending), RuntimeWarning, stacklevel=2)

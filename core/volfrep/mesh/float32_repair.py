@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -106,7 +107,11 @@ class Repair:
         return TriangleMesh(vertices, local.astype(np.int32))
 
     def applied(
-        self, mesh: TriangleMesh, goes: Bools | None = None, piece_goes: Bools | None = None
+        self,
+        mesh: TriangleMesh,
+        goes: Bools | None = None,
+        piece_goes: Bools | None = None,
+        backend: ParallelBackend | None = None,
     ) -> tuple[TriangleMesh, NDArray[np.int32]]:
         """What is left of the mesh, triangles that come last; (n,) the number of vertices in use.
 
@@ -114,7 +119,9 @@ class Repair:
             mesh: that it is of, all of its vertices in use.
             goes: (m,) bool, triangles of the mesh that go, too, whole shells; None: none.
             piece_goes: (p,) bool, those that come of these; None: none.
+            backend: gathers what is left, for its calls; None: for threads.
         """
+        backend = backend or ParallelBackend()
         in_use, stays, piece = np.ones(len(mesh.vertices), bool), self.stays(mesh), self.piece
         in_use[self.unused] = False
         if goes is not None:
@@ -125,27 +132,33 @@ class Repair:
             piece = piece[~piece_goes]
         number = np.cumsum(in_use, dtype=np.int32)
         number -= 1
-        vertices = np.empty((int(np.count_nonzero(in_use)), 3))
-        for part, rows in _kept_blocks(in_use, mesh.vertices):
-            vertices[rows] = part
         there = in_use[self.moved]
-        vertices[number[self.moved[there]]] = self.places[there]
-        triangles = np.empty((int(np.count_nonzero(stays)) + len(piece), 3), np.int32)
-        for corners, rows in _kept_blocks(stays, mesh.triangles):
-            np.take(number, corners, out=triangles[rows], mode="clip")
-        np.take(number, piece, out=triangles[len(triangles) - len(piece) :], mode="clip")
+        moved, places = number[self.moved[there]], self.places[there]
+
+        def where() -> Iterator[NDArray[np.float64]]:
+            filled = 0
+            for part in _kept_blocks(in_use, mesh.vertices):
+                first, last = np.searchsorted(moved, (filled, filled + len(part)))
+                if first < last:
+                    part = part.copy()
+                    part[moved[first:last] - filled] = places[first:last]
+                yield part
+                filled += len(part)
+
+        corners = chain(_kept_blocks(stays, mesh.triangles), [piece])
+        counts = int(np.count_nonzero(in_use)), int(np.count_nonzero(stays)) + len(piece)
+        vertices = backend.gathered(where(), (counts[0], 3), np.float64)
+        triangles = backend.gathered(
+            (np.take(number, some, mode="clip") for some in corners), (counts[1], 3), np.int32
+        )
         return TriangleMesh(vertices, triangles), number
 
 
-def _kept_blocks(kept: Bools, rows: NDArray[Any]) -> Iterator[tuple[NDArray[Any], slice]]:
-    """The rows that are kept, nearly all of them, some at a time, and where they are then."""
-    filled = 0
+def _kept_blocks(kept: Bools, rows: NDArray[Any]) -> Iterator[NDArray[Any]]:
+    """The rows that are kept, nearly all of them, some at a time."""
     for start in range(0, len(kept), BLOCK_TRIANGLES):
         some, part = kept[start : start + BLOCK_TRIANGLES], rows[start : start + BLOCK_TRIANGLES]
-        if not some.all():
-            part = rows_where(some, part)
-        yield part, slice(filled, filled + len(part))
-        filled += len(part)
+        yield part if some.all() else rows_where(some, part)
 
 
 _NONE = np.zeros(0, np.int64)

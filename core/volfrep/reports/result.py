@@ -57,8 +57,12 @@ class Result:
 
     @cached_property
     def mesh(self) -> TriangleMesh:
-        """The surface as one mesh, made when it is first asked for."""
-        return self.surface.whole(Monitor())
+        """The surface as one mesh, made when it is first asked for; its arrays can be written."""
+        whole = self.surface.whole(Monitor())
+        return TriangleMesh(
+            np.require(whole.vertices, requirements="W"),
+            np.require(whole.triangles, requirements="W"),
+        )
 
 
 def report_of(

@@ -32,14 +32,14 @@ from ..mesh.topology import (
     touching,
     vertices_of,
 )
-from ..mesh.triangle_mesh import TriangleMesh, compact, triangle_boxes
+from ..mesh.triangle_mesh import TriangleMesh, compact, corners_at, triangle_boxes
 from ..util.linalg import cross_columns, normalize
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
 from .piercing import pairs_among, pairs_at_planes, piercing_among
 from .regions import in_regions
-from .self_intersection import about, close_pairs
+from .self_intersection import close_pairs, near_corners
 
 #: Vertices of crossing triangles move by so much of the way to the middle of their neighbours, one
 #: share after the other; below 0 that far anywhere.
@@ -262,7 +262,10 @@ def resolve_fold_crossings(
         moved = displaced_vertices(before, mesh)
         went = touching(moved, mesh.triangles)
         stay = folded.pairs[~went[folded.pairs].any(axis=1)]
-        now = _crossing(mesh, about(mesh, went, monitor.backend), monitor, moved)
+        # Nothing else has moved, and the mesh as it was may lie in a file already.
+        corners = corners_at(mesh.vertices, mesh.triangles[went])
+        beside = near_corners(before, corners, monitor.backend)
+        now = _crossing(mesh, beside | went, monitor, moved)
         pairs = np.concatenate([stay, now])
     if not len(pairs):
         return mesh, None

@@ -13,6 +13,7 @@ from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,7 +30,7 @@ from ..spatial.rays import inside_points
 from ..spatial.resolve_crossings import Looks
 from ..util.errors import VolfrepError
 from ..util.manifold import manifold_library
-from ..util.parallel import SharedValue
+from ..util.parallel import ParallelBackend, SharedValue
 from ..util.progress import Monitor
 from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
@@ -150,7 +151,7 @@ def _join_groups(
             together = [pieces[k] for k in range(groups.count)]
             if cavity:
                 together.append(groups.untouched)
-            found = join(together, rim, same)
+            found = join(together, rim, same, monitor.backend)
             if not len(found.loose):
                 return found, inner
             wrong = found.loose[found.loose < groups.count]
@@ -371,7 +372,12 @@ class Joined:
     shells: OpenShells | None = None
 
 
-def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
+def join(
+    pieces: Sequence[Piece],
+    rim: Floats,
+    tolerance: float,
+    backend: ParallelBackend | None = None,
+) -> Joined:
     """Join pieces of a surface along their seams.
 
     Vertices at open edges that lie within the tolerance of each other become one, in the place
@@ -381,7 +387,9 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
         pieces: each closed but for its seams.
         rim: (k, 3) vertices at which the whole may be open, mm.
         tolerance: mm.
+        backend: gathers the mesh, for its calls; None: for threads.
     """
+    backend = backend or ParallelBackend()
     on_boundary = np.concatenate([piece.on_boundary for piece in pieces])
     first = np.cumsum([0] + [len(piece.mesh.vertices) for piece in pieces])
     begin = np.cumsum([0] + [len(piece.mesh.triangles) for piece in pieces])
@@ -397,20 +405,20 @@ def join(pieces: Sequence[Piece], rim: Floats, tolerance: float) -> Joined:
     number = np.cumsum(stays, dtype=np.int32)
     number -= 1
     number[seam] = number[seam[chosen[cluster]]]
-    mesh = TriangleMesh(np.empty((int(stays.sum()), 3)), np.empty((begin[-1], 3), np.int32))
-    at_seam, some, filled = np.zeros(len(stays), bool), [np.zeros(0, np.int64)], 0
-    at_seam[seam], shells = True, []
-    for k, piece in enumerate(pieces):
-        own, rows = slice(first[k], first[k + 1]), slice(begin[k], begin[k + 1])
-        corners = piece.mesh.triangles
-        np.take(number[own], corners, out=mesh.triangles[rows], mode="clip")
-        at_edge = rows_along(at_seam[own], corners, piece.looks)
-        some.append(at_edge + begin[k])
+    each = [(piece, slice(*own)) for piece, own in zip(pieces, pairwise(first), strict=True)]
+    corners = (np.take(number[own], piece.mesh.triangles, mode="clip") for piece, own in each)
+    kept = (rows_where(stays[own], piece.mesh.vertices) for piece, own in each)
+    mesh = TriangleMesh(
+        backend.gathered(kept, (int(stays.sum()), 3), np.float64),
+        backend.gathered(corners, (int(begin[-1]), 3), np.int32),
+    )
+    at_seam, some, shells = np.zeros(len(stays), bool), [np.zeros(0, np.int64)], []
+    at_seam[seam] = True
+    for (piece, own), start in zip(each, begin, strict=False):
+        at_edge = rows_along(at_seam[own], piece.mesh.triangles, piece.looks)
+        some.append(at_edge + start)
         if piece.shells is not None:
             shells.append(piece.shells.at(piece.rim, piece.mesh, at_edge))
-        kept = rows_where(stays[own], piece.mesh.vertices)
-        mesh.vertices[filled : filled + len(kept)] = kept
-        filled += len(kept)
     at_rim = np.where(row < 0, -1, number[seam[chosen[row]]]).astype(np.int64)
     open_ = _open(mesh, np.concatenate(some), number[seam[chosen]], at_rim[row >= 0])
     loose.append(np.searchsorted(begin, open_, "right") - 1)

@@ -66,7 +66,7 @@ def clear(
     """
     mended = surface if isinstance(surface, MendedSurface) else MendedSurface(surface)
     if len(mended.repair.old) and mended.shells is None:
-        mended = MendedSurface(mended.applied())
+        mended = MendedSurface(mended.applied(backend=monitor.backend))
     joined, repair = mended.inspected(monitor), mended.repair
     found, mesh = joined.found, mended.surface.mesh
     label, volume = found.shell, found.volume
@@ -84,7 +84,7 @@ def clear(
         loose[order[:bodies]] = False
     if not (loose | tiny).any():
         least = float(np.abs(volume[used]).min(initial=np.inf))
-        left = mended.applied()
+        left = mended.applied(backend=monitor.backend)
         quality = found.quality
         if left is not mended.surface:
             quality = replace(quality, bounds=left.bounds)
@@ -92,10 +92,10 @@ def clear(
     # What goes has to be in the mesh, with all that may lie in it.
     alone = joined.beyond & (np.bincount(label, minlength=len(volume)) == 0)
     if (joined.beyond & (loose | tiny)).any() or ((loose & ~tiny).any() and (void & alone).any()):
-        whole = TrimmedSurface(mended.applied().whole(monitor))
+        whole = TrimmedSurface(mended.applied(backend=monitor.backend).whole(monitor))
         return clear(whole, smallest, monitor, floating=floating, keep=keep, bodies=bodies)
     if (loose & ~tiny).any() and len(repair.old):
-        left = mended.applied()
+        left = mended.applied(backend=monitor.backend)
         return clear(left, smallest, monitor, floating=floating, keep=keep, bodies=bodies)
     # A void inside a loose piece goes with it.
     inside_loose = np.zeros(len(volume), bool)
@@ -103,7 +103,7 @@ def clear(
         inside_loose = void & _find_enclosed(mesh, label, loose & ~tiny, void & ~tiny)
     gone = loose | tiny | inside_loose
     goes, piece_goes = gone[label], gone[label[repair.old[repair.origin]]]
-    left = mended.applied(goes, piece_goes)
+    left = mended.applied(goes, piece_goes, monitor.backend)
     if found.quality.watertight and left.triangles:
         both = mesh.triangles[goes & repair.stays(mesh)], repair.piece[piece_goes]
         taken = measure(repair.some(mesh, np.concatenate(both)))

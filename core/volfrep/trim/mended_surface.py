@@ -10,6 +10,7 @@ import numpy as np
 from ..mesh.float32_repair import NO_REPAIR, Repair
 from ..mesh.open_shells import OpenShells, keeps_border, quality_after_repair
 from ..mesh.quality import Quality
+from ..util.parallel import ParallelBackend
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .trimmed_surface import JoinedInspection, TrimmedSurface
@@ -59,19 +60,25 @@ class MendedSurface:
         mesh, repair, beside = self.surface.mesh, self.repair, self.beside
         return quality_after_repair(quality, mesh, repair, beside, bounds, least)
 
-    def applied(self, goes: Bools | None = None, piece_goes: Bools | None = None) -> TrimmedSurface:
+    def applied(
+        self,
+        goes: Bools | None = None,
+        piece_goes: Bools | None = None,
+        backend: ParallelBackend | None = None,
+    ) -> TrimmedSurface:
         """The surface that is left; the same one where nothing changes.
 
         Args:
             goes: (m,) bool, triangles of the mesh of whole shells that go, too; None: none.
             piece_goes: (p,) bool, the same of those that come.
+            backend: as of `Repair.applied`.
         """
         surface, repair, looks = self.surface, self.repair, self.surface.looks
         if goes is None or piece_goes is None:
             if not len(repair.old):
                 return surface
             goes = piece_goes = None
-        mesh, number = repair.applied(surface.mesh, goes, piece_goes)
+        mesh, number = repair.applied(surface.mesh, goes, piece_goes, backend)
         if looks is not None:
             stays, piece_stays = repair.stays(surface.mesh), np.ones(len(repair.piece), bool)
             if goes is not None and piece_goes is not None:

@@ -11,6 +11,7 @@ from __future__ import annotations
 from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,9 +24,9 @@ from ..grid.strut_graph import Wireframe
 from ..lattice.certificate import keeps_corners
 from ..lattice.strut_masks import without_struts
 from ..mesh.booleans import as_manifold
-from ..mesh.float32_repair import edge_within, shortest_edge
+from ..mesh.float32_repair import BLOCK_TRIANGLES, edge_within, shortest_edge
 from ..mesh.quality import combine, inspect
-from ..mesh.triangle_mesh import TriangleMesh, concatenate
+from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import OctantGrid, used_kinds
 from ..octants.octant_spec import OctantSpec
 from ..shell.domain import Domain
@@ -199,13 +200,29 @@ def cleared_cut(
     cut = cleared.surface
     outside = len(solid.triangles)
     looks = cut.looks and cut.looks.padded(outside, 0)
-    both = cut.on(concatenate(solid, cut.mesh), looks, partial(np.add, len(solid.vertices)))
+    whole = _one_after_the_other(solid, cut.mesh, monitor)
+    both = cut.on(whole, looks, partial(np.add, len(solid.vertices)))
     skin = inspect(solid, monitor)
     return replace(
         cleared,
         surface=both,
         quality=combine(skin.quality, cleared.quality),
         least=min(cleared.least, float(np.abs(skin.volume).min(initial=np.inf))),
+    )
+
+
+def _one_after_the_other(
+    first: TriangleMesh, second: TriangleMesh, monitor: Monitor
+) -> TriangleMesh:
+    """As `concatenate`, the second one mostly by far the larger, for calls of others."""
+    shift, starts = np.int32(len(first.vertices)), range(0, len(second.triangles), BLOCK_TRIANGLES)
+    others = (second.triangles[k : k + BLOCK_TRIANGLES] + shift for k in starts)
+    vertices = len(first.vertices) + len(second.vertices)
+    triangles = len(first.triangles) + len(second.triangles)
+    gathered = monitor.backend.gathered
+    return TriangleMesh(
+        gathered((first.vertices, second.vertices), (vertices, 3), np.float64),
+        gathered(chain([first.triangles], others), (triangles, 3), np.int32),
     )
 
 

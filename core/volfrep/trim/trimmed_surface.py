@@ -22,6 +22,7 @@ from ..mesh.topology import corners_among, pieces_of
 from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..spatial.resolve_crossings import Looks
 from ..spatial.winding import Lines, Windings, mesh_blocks
+from ..util.parallel import ParallelBackend
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .placed_lattice import Caps, InnerOctants, PlacedVertices
@@ -100,10 +101,19 @@ class TrimmedSurface:
         """All of it as one mesh: first what was cut, then the octants."""
         if self.octants is None:
             return self.mesh
-        return self.with_octants(self.octants.where, monitor).mesh
+        return self.with_octants(self.octants.where, monitor, ParallelBackend()).mesh
 
-    def with_octants(self, where: Bools, monitor: Monitor) -> TrimmedSurface:
-        """The surface with some of the octants in its mesh."""
+    def with_octants(
+        self, where: Bools, monitor: Monitor, backend: ParallelBackend | None = None
+    ) -> TrimmedSurface:
+        """The surface with some of the octants in its mesh.
+
+        Args:
+            where: (nx, ny, nz) bool, the octants.
+            monitor: for cancel.
+            backend: gathers the mesh, for its calls; None: the monitor's.
+        """
+        backend = backend or monitor.backend
         inner = self.octants
         if inner is None or not where.any():
             return self
@@ -115,9 +125,11 @@ class TrimmedSurface:
         fresh[place[shared]] = False
         row = np.cumsum(fresh) - 1 + len(self.mesh.vertices)
         row[place[shared]] = self._rim_rows[shared]
+        vertices = self.mesh.vertices, more.vertices[fresh]
+        triangles = self.mesh.triangles, row.astype(np.int32)[more.triangles]
         mesh = TriangleMesh(
-            np.concatenate([self.mesh.vertices, more.vertices[fresh]]),
-            np.concatenate([self.mesh.triangles, row.astype(np.int32)[more.triangles]]),
+            backend.gathered(vertices, (sum(map(len, vertices)), 3), np.float64),
+            backend.gathered(triangles, (sum(map(len, triangles)), 3), np.int32),
         )
         rest = inner.where & ~where
         looks = self.looks and self.looks.padded(0, len(more.triangles))

@@ -2,7 +2,8 @@
 """Calls that one job divides its work into, made side by side by threads or by other processes.
 
 Large arrays that all of the calls need lie in files for other processes, which map them: each is
-sent a path, and what was written a moment ago is still in memory.
+sent a path, and what was written a moment ago is still in memory. Those that are made for many such
+calls lie in files from the start (`ParallelBackend.gathered`), and are not copied for any.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import mmap
 import pickle
 import tempfile
+import weakref
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -19,7 +21,10 @@ from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 from .threads import in_threads
 
 if TYPE_CHECKING:  # the command's help needs no numpy
+    import numpy as np
     from numpy.typing import NDArray
+
+    Number = TypeVar("Number", bound=np.generic)
 
 T = TypeVar("T")
 Shared = TypeVar("Shared", covariant=True)
@@ -124,10 +129,53 @@ class ParallelBackend:
         import numpy as np
 
         with _folder() as folder:
-            files = [folder / f"{number}.npy" for number in range(len(arrays))]
-            for file, array in zip(files, arrays, strict=True):
-                np.save(file, array)
+            files = []
+            for number, array in enumerate(arrays):
+                file = _file_of(array)
+                if file is None:
+                    file = folder / f"{number}.npy"
+                    np.save(file, array)
+                files.append(file)
             yield tuple(MappedArray(file) for file in files)
+
+    def gathered(
+        self, blocks: Iterable[NDArray[Number]], shape: tuple[int, int], dtype: type[Number]
+    ) -> NDArray[Number]:
+        """Rows that come some at a time as one array; `sharing` does not copy it.
+
+        Args:
+            blocks: (k, columns) each.
+            shape: rows, all together, and columns.
+            dtype: of all blocks.
+
+        Returns:
+            Read only where it lies in a file, which goes with it.
+
+        Raises:
+            OSError: as of `sharing`.
+        """
+        import numpy as np
+
+        if not self.uses_processes or not shape[0]:
+            result, filled = np.empty(shape, dtype), 0
+            for block in blocks:
+                result[filled : filled + len(block)] = block
+                filled += len(block)
+            return result
+        folder = tempfile.TemporaryDirectory(prefix="volfrep-", ignore_cleanup_errors=True)
+        path = Path(folder.name) / "rows.npy"
+        try:
+            with path.open("wb") as file:
+                head = {"descr": np.dtype(dtype).str, "fortran_order": False, "shape": shape}
+                np.lib.format.write_array_header_1_0(file, head)  # type: ignore[no-untyped-call]
+                for block in blocks:
+                    file.write(np.ascontiguousarray(block).data)
+            mapped = np.load(path, mmap_mode="r")
+        except BaseException:
+            folder.cleanup()
+            raise
+        weakref.finalize(mapped.base, folder.cleanup)  # what maps the file: Windows wants it gone
+        return np.asarray(mapped)
 
     @contextmanager
     def sharing_value(self, value: T) -> Iterator[SharedValue[T]]:
@@ -150,6 +198,16 @@ class ParallelBackend:
                     begin = file.tell()
                     spans.append((begin, begin + file.write(buffer.raw())))
             yield MappedValue(path, rest, tuple(spans))
+
+
+def _file_of(array: NDArray[Any]) -> Path | None:
+    """Where all of an array lies in a file of `gathered`; None where it does not."""
+    import numpy as np
+
+    whole = array.base
+    if not isinstance(whole, np.memmap) or whole.filename is None:
+        return None
+    return Path(whole.filename) if array.__array_interface__ == whole.__array_interface__ else None
 
 
 @contextmanager

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Arrays that calls of other processes share."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from volfrep.util.parallel import LocalArray, MappedArray, ParallelBackend, SharedArray
+
+
+class Processes(ParallelBackend):
+    """Shares as for processes, and has none."""
+
+    @property
+    def uses_processes(self) -> bool:
+        """As of any backend."""
+        return True
+
+
+BLOCKS = (np.arange(6.0).reshape(2, 3), np.asfortranarray(np.arange(9.0).reshape(3, 3)))
+ROWS = np.concatenate(BLOCKS)
+
+
+def path_of(shared: SharedArray) -> Path:
+    assert isinstance(shared, MappedArray)
+    return shared.path
+
+
+@pytest.mark.parametrize("backend", [ParallelBackend(), Processes()])
+def test_what_comes_some_rows_at_a_time_is_one_array_that_is_shared_uncopied(
+    backend: ParallelBackend,
+) -> None:
+    found = backend.gathered(iter(BLOCKS), (5, 3), np.float64)
+    assert found.dtype == np.float64
+    assert np.array_equal(found, ROWS)
+    with backend.sharing(found) as (first,), backend.sharing(found) as (second,):
+        assert np.array_equal(first.array, ROWS)
+        if isinstance(first, LocalArray):
+            assert first.array is found
+        else:
+            assert path_of(first) == path_of(second)
+
+
+def test_a_part_of_an_array_in_a_file_is_not_taken_for_it() -> None:
+    found = Processes().gathered(iter(BLOCKS), (5, 3), np.float64)
+    for part in (found[1:], found[:, ::-1], found[::-1]):
+        with Processes().sharing(part) as (shared,):
+            assert np.array_equal(shared.array, part)
+
+
+def test_the_file_of_an_array_goes_with_it() -> None:
+    found = Processes().gathered(iter(BLOCKS), (5, 3), np.float64)
+    with Processes().sharing(found) as (shared,):
+        path = path_of(shared)
+    rows = found[2:4]
+    del found
+    assert np.array_equal(rows, ROWS[2:4])
+    assert path.exists()
+    del rows
+    assert not path.parent.exists()
+
+
+def test_no_file_is_left_where_rows_do_not_come(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+
+    def stops() -> object:
+        yield BLOCKS[0]
+        raise MemoryError
+
+    with pytest.raises(MemoryError):
+        Processes().gathered(stops(), (5, 3), np.float64)  # type: ignore[arg-type]
+    assert not list(tmp_path.iterdir())

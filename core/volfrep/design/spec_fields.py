@@ -252,7 +252,7 @@ class Kind(ABC):
 
     @property
     def coarsest_resolution(self) -> int:
-        """Facets along L below which struts would not have their volume, or sheets have gaps."""
+        """Facets along L below which struts would lose their volume, or sheets their thickness."""
         return self.spec.detail.coarsest(self.spec.cell_size, self.spec.struts)
 
     @property

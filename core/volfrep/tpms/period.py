@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """One period of a wall, meshed as its eight octants, which fit each other and their copies.
 
-Marching cubes finds the surface on samples of the true distance. What lies on the octants' edges
-and faces is settled first, each vertex once for all the octants that share it; then the octants
-are evened out inside, on the exact surface.
+Marching cubes finds the surface on samples of the true distance. Both sides of a sheet are found
+each for itself, so that a thin one needs no finer samples than a thick one. What lies on the
+octants' edges and faces is settled first, each vertex once for all the octants that share it; then
+the octants are evened out inside, on the exact surface.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,21 +69,25 @@ def tpms_octants(
     """
     steps = (facets + 1) // 2
     step = 0.5 / steps
-    samples = solid.samples(2 * steps, BAND * step)
-    samples[np.abs(samples) < ZERO_BAND * step] = ZERO_BAND * step
-    monitor.tick()
+    found = []
+    for side in solid.sides:
+        samples = side.samples(2 * steps, BAND * step)
+        samples[np.abs(samples) < ZERO_BAND * step] = ZERO_BAND * step
+        found.append(samples * cell_size)
+        monitor.tick()
     keys = [OctantKey(mirror, ALL_ACTIVE) for mirror in range(8)]
     raw, corners = [], []
     for key in keys:
-        own = _octant_samples(samples * cell_size, key.mirror, steps)
-        raw.append(raw_octant(own, cell_size))
-        corners.append(own[::steps, ::steps, ::steps] < 0.0)
-    period = _Period.of(solid, cell_size, facets, keys, raw, corners)
+        own = [_octant_samples(samples, key.mirror, steps) for samples in found]
+        raw.append([raw_octant(samples, cell_size) for samples in own])
+        corners.append(np.max(own, axis=0)[::steps, ::steps, ::steps] < 0.0)
+    period = _Period.of(solid.sides, cell_size, facets, keys, raw, corners)
     monitor.count("kinds of octants meshed", len(keys))
     vertices = period.with_settled_border()
     raw_surface = _surface(period, vertices)
     for gently in (False, True):
         surface, origin = remesh_evenly(raw_surface, period.in_frames, gently, monitor)
+        surface = replace(surface, piece=surface.piece % len(keys))
         surface, crossed = untangle(surface, raw_surface.vertices[origin])
         if not crossed.any():
             return period.octants(surface, origin)
@@ -105,7 +111,7 @@ class _Period:
     """Raw octants of a period, joined on their faces.
 
     Attributes:
-        solid: in units of L.
+        sides: what is solid on one side of each of the surfaces, in units of L.
         cell_size: L, mm.
         edge: wanted, mm.
         step: between samples, mm.
@@ -114,9 +120,10 @@ class _Period:
         number: (n,) of each octant's vertices, one octant after another.
         sign: (n, 3) direction of the frame that each lies in.
         piece: (n,) its octant.
+        side: (n,) which of the sides it is on.
     """
 
-    solid: TpmsSolid
+    sides: Sequence[TpmsSolid]
     cell_size: float
     edge: float
     step: float
@@ -127,16 +134,18 @@ class _Period:
     number: Ints
     sign: Floats
     piece: Ints
+    side: Ints
 
     @staticmethod
     def of(
-        solid: TpmsSolid,
+        sides: Sequence[TpmsSolid],
         cell_size: float,
         facets: int,
         keys: list[OctantKey],
-        raw: list[RawOctant],
+        found: list[list[RawOctant]],
         corners: list[Bools],
     ) -> _Period:
+        raw = [_together(octants) for octants in found]
         octants = {
             key: ranked_octant(one.vertices, one.triangles, one.place, one.order, solid_corners)
             for key, one, solid_corners in zip(keys, raw, corners, strict=True)
@@ -152,9 +161,11 @@ class _Period:
         sign = [np.where(place % 2 == 0, -1.0, 1.0) for place in places]
         counts = [len(one.vertices) for one in raw]
         return _Period(
-            solid, cell_size, cell_size / facets, 0.5 * cell_size / ((facets + 1) // 2), keys, raw,
+            sides, cell_size, cell_size / facets, 0.5 * cell_size / ((facets + 1) // 2), keys, raw,
             corners, layout, np.concatenate(number).astype(np.int64),
             np.repeat(sign, counts, axis=0), np.repeat(np.arange(len(raw)), counts),
+            np.concatenate([np.full(len(one.vertices), k)
+                            for octants in found for k, one in enumerate(octants)]),
         )  # fmt: skip
 
     @property
@@ -167,9 +178,12 @@ class _Period:
         """(n, 3) where the octants' vertices lie in them."""
         return np.concatenate([one.place for one in self.raw])
 
-    def at(self, points: Floats) -> tuple[Floats, Floats]:
-        """Distances in mm to the wall and their gradients, at points of the period."""
-        value, gradient = self.solid.values_and_gradients(points / self.cell_size)
+    def at(self, points: Floats, side: Ints) -> tuple[Floats, Floats]:
+        """Distances in mm to the surface of a side and their gradients, at points of the period."""
+        value, gradient = np.empty(len(points)), np.empty((len(points), 3))
+        for k, solid in enumerate(self.sides):
+            own = side == k
+            value[own], gradient[own] = solid.values_and_gradients(points[own] / self.cell_size)
         return value * self.cell_size, gradient
 
     def with_settled_border(self) -> Floats:
@@ -178,11 +192,13 @@ class _Period:
         points = coordinates(self.layout, Monitor())
         pinned = np.zeros((count, 3), bool)
         pinned[self.number] = self.place != 1
+        side = np.zeros(count, int)
+        side[self.number] = self.side
         pins = pinned.sum(axis=1)
         on_edge, on_face = np.flatnonzero(pins == 2), np.flatnonzero(pins == 1)
-        points[on_edge] = self._on_edges(points[on_edge], pinned[on_edge])
+        points[on_edge] = self._on_edges(points[on_edge], pinned[on_edge], side[on_edge])
         found = points[on_face].copy()
-        points[on_face] = self._in_faces(found, found, ~pinned[on_face])
+        points[on_face] = self._in_faces(found, found, ~pinned[on_face], side[on_face])
         pairs = self._border()
         first = points.copy()
         for _ in range(BORDER_ROUNDS):
@@ -198,7 +214,7 @@ class _Period:
             often = np.bincount(pairs.ravel(), minlength=count)
             step = SLIDE * total / np.maximum(often, 1)[:, None] * ~pinned
             slid = points[on_face] + step[on_face]
-            points[on_face] = self._in_faces(slid, found, ~pinned[on_face])
+            points[on_face] = self._in_faces(slid, found, ~pinned[on_face], side[on_face])
         points = self._unfold(first, points, pairs, on_face)
         # Whole steps: octants that share a vertex give it the very same place.
         whole = self.half / STEPS
@@ -211,31 +227,32 @@ class _Period:
         own[inner] = np.concatenate([one.vertices for one in self.raw])[inner]
         return own
 
-    def _on_edges(self, points: Floats, pinned: Bools) -> Floats:
+    def _on_edges(self, points: Floats, pinned: Bools, side: Ints) -> Floats:
         """Vertices on the octants' edges, where the wall's surface is between two samples."""
         cell = np.floor(points / self.step + 1e-9)
         low = np.where(pinned, points, (cell + MARGIN) * self.step)
         high = np.where(pinned, points, (cell + 1.0 - MARGIN) * self.step)
-        positive = self.at(high)[0] > 0.0
-        at_low = self.at(low)[0] > 0.0
+        positive = self.at(high, side)[0] > 0.0
+        at_low = self.at(low, side)[0] > 0.0
         for _ in range(BISECTIONS):
             middle = 0.5 * (low + high)
-            to_high = ((self.at(middle)[0] > 0.0) == positive)[:, None]
+            to_high = ((self.at(middle, side)[0] > 0.0) == positive)[:, None]
             low, high = np.where(to_high, low, middle), np.where(to_high, middle, high)
         # Where the surface is nearly at a sample there may be no change of sign left in between.
         return np.where((at_low == positive)[:, None], points, 0.5 * (low + high))
 
-    def _in_faces(self, points: Floats, found: Floats, loose: Bools) -> Floats:
+    def _in_faces(self, points: Floats, found: Floats, loose: Bools, side: Ints) -> Floats:
         """Vertices on the octants' faces brought to the wall's surface within them.
 
         Args:
             points: (n, 3) where they are.
             found: (n, 3) where marching cubes had them.
             loose: (n, 3) coordinates that may change.
+            side: (n,) which side's surface.
         """
         grazes = np.zeros(len(points), bool)
         for _ in range(3):
-            value, gradient = self.at(points)
+            value, gradient = self.at(points, side)
             gradient = gradient * loose
             size = np.einsum("ij,ij->i", gradient, gradient)
             grazes |= size < GRAZING
@@ -279,11 +296,17 @@ class _Period:
             after[back] = before[back]
             may_return &= ~back
 
+    @property
+    def sides_of_octants(self) -> Ints:
+        """(n,) numbers of the sides of octants: those of all octants, side by side."""
+        return self.side * len(self.raw) + self.piece
+
     def in_frames(self, points: Floats, piece: Ints) -> tuple[Floats, Floats]:
-        """Distances and gradients at points in the frames of octants."""
+        """Distances to sides and gradients at points in the frames of octants."""
+        side, octant = np.divmod(piece, len(self.raw))
         first = np.searchsorted(self.piece, np.arange(len(self.raw)))
-        sign = self.sign[np.minimum(first, len(self.sign) - 1)][piece]
-        value, gradient = self.at(sign * points)
+        sign = self.sign[np.minimum(first, len(self.sign) - 1)][octant]
+        value, gradient = self.at(sign * points, side)
         return value, sign * gradient
 
     def octants(self, surface: PinnedMesh, origin: Ints) -> dict[OctantKey, Octant]:
@@ -302,11 +325,22 @@ class _Period:
         return result
 
 
+def _together(sides: Sequence[RawOctant]) -> RawOctant:
+    """The sides' surfaces in an octant as one, ordered alike in every octant."""
+    first = np.cumsum([0] + [len(one.vertices) for one in sides])
+    return RawOctant(
+        np.concatenate([one.vertices for one in sides]),
+        np.concatenate([one.triangles + k for one, k in zip(sides, first[:-1], strict=True)]),
+        np.concatenate([one.place for one in sides]),
+        np.concatenate([len(sides) * one.order + k for k, one in enumerate(sides)]),
+    )
+
+
 def _surface(period: _Period, vertices: Floats) -> PinnedMesh:
     """All the octants as one surface, each in its own frame."""
     first = np.cumsum([0] + [len(one.vertices) for one in period.raw])
     triangles = [one.triangles + k for one, k in zip(period.raw, first[:-1], strict=True)]
     return PinnedMesh(
-        vertices, np.concatenate(triangles), period.place, period.edge, period.step, period.piece,
-        period.half,
+        vertices, np.concatenate(triangles), period.place, period.edge, period.step,
+        period.sides_of_octants, period.half,
     )  # fmt: skip

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -34,6 +34,13 @@ class TpmsSolid:
         """What a wall, in mm, is in cells of a size."""
         length = 0.5 * sheet.thickness if sheet.is_sheet else sheet.offset
         return TpmsSolid(midsurface(surface), sheet.kind, length / cell_size)
+
+    @property
+    def sides(self) -> tuple[TpmsSolid, ...]:
+        """What it is the common part of, each with one surface: of a sheet two, else itself."""
+        if self.kind != "sheet":
+            return (self,)
+        return replace(self, kind="skeleton"), replace(self, kind="complement")
 
     def outward(self, feet: Feet) -> Floats:
         """(n,) 1 where the solid's outside lies along the feet's normals, -1 where against."""

@@ -134,7 +134,7 @@ def test_a_wall_is_made_as_stiff_as_it_is_asked_for(monkeypatch):
     spec = LatticeSpec("Schwarz P", 10.0, shell=0, target=target)
     found = stiffness.solve_tpms_stiffness(spec, target)
     # Another homogenisation, as exact as the table in docs/tpms.md.
-    wall = found.sheet
+    wall = found.wall
     made = volfrep.properties("Schwarz P", 10.0, wall_thickness=wall.thickness, along=48)
     assert made.values["E111"] == pytest.approx(0.05, rel=0.02)
     assert 0.4 < wall.thickness < 0.6

@@ -159,6 +159,26 @@ def test_a_sheet_is_as_thick_as_wanted_from_side_to_side() -> None:
     assert np.quantile(found, [0.03, 0.97]) == pytest.approx(0.8, rel=0.05)
 
 
+@pytest.mark.costly
+@pytest.mark.parametrize(
+    ("name", "thickness"),
+    [("Gyroid", 0.12), pytest.param("Lidinoid", 0.16, marks=pytest.mark.slow)],
+)
+def test_a_thin_sheet_needs_facets_for_its_surface_and_not_for_its_thickness(name, thickness):
+    """Each of its sides is met by a facet or two a thickness, where eight were."""
+    facets = LatticeSpec(name, SIZE, wall=TpmsSheet("sheet", thickness)).facets_along_cell
+    assert thickness < 0.75 * SIZE / facets
+    mesh = lay(laid_block(octants(name, thickness=thickness, facets=facets), 1), Monitor())
+    quality = measure(mesh)
+    assert quality.watertight
+    assert len(piercing_pairs(mesh)) == 0
+    middle = np.mean(mesh.corners(), axis=0)
+    inner = ((middle > 1.0) & (middle < 9.0)).all(axis=1)
+    found = across(mesh, np.flatnonzero(inner)[::37])
+    assert np.median(found) == pytest.approx(thickness, rel=0.02)
+    assert np.quantile(found, [0.03, 0.97]) == pytest.approx(thickness, rel=0.15)
+
+
 @pytest.mark.slow
 def test_a_filled_part_does_not_run_through_itself() -> None:
     spec = LatticeSpec("Gyroid", 9.0, shell=1.0, resolution=16, wall=TpmsSheet("sheet", 1.2))
@@ -309,7 +329,7 @@ def test_a_formula_that_is_no_surface_is_refused(formula, said) -> None:
         ({"wall": TpmsSheet("sheet", 10.0)}, "too thick for a cell"),
         ({"fillet": 0.5}, "fillet is not for walls"),
         ({"remove_dangling": True}, "removal of struts is not for walls"),
-        ({"wall": TpmsSheet("sheet", 0.02)}, "limit is 400"),
+        ({"wall": TpmsSheet("sheet", 0.005)}, "limit is 400"),
         ({"boundary": "whole"}, "cut at the wall"),
         ({"activation": "inside"}, "cut at the wall"),
     ],

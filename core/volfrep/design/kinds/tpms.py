@@ -5,26 +5,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from ...util.errors import VolfrepError
 from ...util.types import Floats
 from .. import costs
 from ..cells import UnitCell
-from ..expression import compile_expression
 from ..spec_fields import Kind
 from ..spec_parts import MAX_RESOLUTION
 from ..tpms import PeriodicSurface
-from ..tpms.sheet import CURVATURE, wanted_facets
+from ..tpms.measures import strongest_curvature, surface_area
+from ..tpms.sheet import wanted_facets
 
-#: Facets on one side of a wall, for each area of a facet's edge squared; and the samples along a
-#: cell by which the area is known.
+#: Facets on one side of a wall, for each area of a facet's edge squared.
 TRIANGLES_OF_SIDE = 2.5
-AREA_SAMPLES = 32
 
 
 class Tpms(Kind):
@@ -126,8 +122,9 @@ class Tpms(Kind):
 
     @property
     def coarsest_resolution(self) -> int:
-        """Facets along L below which sheets would have gaps."""
-        return self.spec.wall.coarsest(self.spec.cell_size, self.thicknesses[0])
+        """Facets along L below which sheets would lose their thickness."""
+        curvature = strongest_curvature(self.surface)
+        return self.spec.wall.coarsest(self.spec.cell_size, self.thicknesses[0], curvature)
 
     @property
     def facets_along_cell(self) -> int:
@@ -137,7 +134,9 @@ class Tpms(Kind):
             VolfrepError: there would be too many.
         """
         spec = self.spec
-        wanted = spec.resolution or wanted_facets(spec.cell_size, spec.detail.deviation)
+        wanted = spec.resolution or wanted_facets(
+            spec.cell_size, spec.detail.deviation, strongest_curvature(self.surface)
+        )
         facets = max(wanted, self.coarsest_resolution)
         if facets > MAX_RESOLUTION:
             raise VolfrepError(
@@ -148,12 +147,12 @@ class Tpms(Kind):
 
     def deviation_of(self, facets: int) -> float:
         """As of `Kind`, by the surface's curvature."""
-        return CURVATURE * self.spec.cell_size / (16.0 * facets**2)
+        return strongest_curvature(self.surface) * self.spec.cell_size / (16.0 * facets**2)
 
     @property
     def too_coarse(self) -> str:
-        """Sheets, which would have gaps."""
-        return f"walls of {self.thicknesses[0]:.3g} mm, which would have gaps"
+        """Sheets, which would lose their thickness."""
+        return f"walls of {self.thicknesses[0]:.3g} mm, which would lose their thickness"
 
     def triangles_of_cell(self, shares: Floats) -> float:
         """Triangles of the walls in one cell, about."""
@@ -168,21 +167,3 @@ class Tpms(Kind):
     def meshing_bytes(self) -> float:
         """As of `Kind`."""
         return costs.BYTES_PER_PERIOD_TRIANGLE * self.triangles_of_cell(self.strut_shares())
-
-
-@lru_cache(maxsize=8)
-def surface_area(surface: PeriodicSurface) -> float:
-    """About the area of a surface in a cell, in units of L squared.
-
-    By how often lines along x, y and z cross it (Crofton): where it faces all ways alike they do
-    so on 3/2 of its area; of Schwarz P this is 6 % too much, of the gyroid (3.09) 4 %.
-
-    >>> from volfrep.design.tpms.library import SURFACES
-    >>> 3.1 < surface_area(SURFACES["Gyroid"]) < 3.3
-    True
-    """
-    angle = 2.0 * np.pi * (np.arange(AREA_SAMPLES) + 0.3) / AREA_SAMPLES
-    formula = compile_expression(surface.formula, ("x", "y", "z"))
-    above = formula(*np.meshgrid(angle, angle, angle, indexing="ij")) > 0.0
-    crossings = sum(int((above != np.roll(above, 1, axis)).sum()) for axis in range(3))
-    return crossings / (1.5 * AREA_SAMPLES**2)

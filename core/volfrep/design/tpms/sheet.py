@@ -14,13 +14,11 @@ from ...util.numbers import number
 #: A sheet about the surface; or all on the side where its formula is negative, or positive.
 SIDES = ("skeleton", "complement")
 KINDS = ("sheet", *SIDES)
-#: Facets along a cell where the user says nothing. The sheet is at least so many of them thick,
-#: so that none of its samples can miss it.
+#: Facets along a cell where the user says nothing. The sheet is at least so many of them thick, as
+#: its sides are found to within less; and its facets stray by no more than this part of that.
 AUTOMATIC_FACETS = 30
-FACETS_ACROSS = 1.8
-#: The strongest curvature of the library's surfaces is about this over L: of facets of edge e the
-#: mean deviation is e2 / 16 times it.
-CURVATURE = 6.0
+FACETS_ACROSS = 0.25
+STRAYING = 1 / 16
 
 
 @dataclass(frozen=True)
@@ -70,15 +68,22 @@ class TpmsSheet:
         """What counts of it for `util.content.digest_of`."""
         return self.as_json()
 
-    def coarsest(self, cell_size: float, thinnest: float) -> int:
-        """Facets along a cell below which samples could miss a sheet of a thickness in mm."""
+    def coarsest(self, cell_size: float, thinnest: float, curvature: float) -> int:
+        """Facets along a cell below which a sheet of so many mm would not have its thickness.
+
+        `curvature` is the strongest one of its surface, over L.
+        """
         if not self.is_sheet:
             return 8
-        return max(8, math.ceil(FACETS_ACROSS * cell_size / thinnest))
+        across = math.ceil(FACETS_ACROSS * cell_size / thinnest)
+        return max(8, across, wanted_facets(cell_size, STRAYING * thinnest, curvature))
 
 
-def wanted_facets(cell_size: float, deviation: float | None) -> int:
-    """Facets along a cell for a deviation in mm; None: as many as the user leaves to us."""
+def wanted_facets(cell_size: float, deviation: float | None, curvature: float) -> int:
+    """Facets along a cell for a deviation in mm; None: as many as the user leaves to us.
+
+    Of facets of edge e the mean deviation is e2 / 16 times the curvature, here over L.
+    """
     if deviation is None:
         return AUTOMATIC_FACETS
-    return math.ceil(cell_size / math.sqrt(16.0 * deviation * cell_size / CURVATURE))
+    return math.ceil(math.sqrt(curvature * cell_size / (16.0 * deviation)))

@@ -104,9 +104,10 @@ def deform(
                 continue
             own = bindings[key]
             lookup = NodeLookup.of(cell, key, own.copy, own.place)
+            ends = _StrutEnds.of_kind(own)
             size = max(1, CHUNK_VERTICES // len(own.kind))
             for begin in range(0, len(place), size):
-                yield _Part(octant, own, lookup, place[begin : begin + size])
+                yield _Part(octant, own, ends, lookup, place[begin : begin + size])
 
     def moved(part: _Part) -> tuple[NDArray[np.int32], Floats, float]:
         own, octant = part.own, part.octant
@@ -114,7 +115,7 @@ def deform(
         corner, sign = frames(part.place)
         base = corner * grid.cell_size + grid.origin
         rows = part.lookup.rows(nodes.graph, part.place, grid.periodic)
-        found = _place(own, rows, sign, nodes)
+        found = _place(own, part.ends, rows, sign, nodes)
         if rounding is not None:
             found = rounding.project(found, own, rows)
         before = base[:, None] + sign[:, None] * octant.vertices
@@ -142,40 +143,66 @@ def deform(
 
 
 @dataclass(frozen=True, eq=False)
+class _StrutEnds:
+    """The ends of struts that vertices of one kind of octant lie on, each with those beside it.
+
+    A few dozen carry hundreds of vertices, for which what hangs on the struts alone is found once.
+
+    Attributes:
+        near, far, left, right: (e,) nodes, as of `StrutBinding`.
+        corner: (e,) as there.
+        of: (v,) the end that each vertex on a strut lies at.
+    """
+
+    near: Ints
+    far: Ints
+    left: Ints
+    right: Ints
+    corner: Floats
+    of: Ints
+
+    @staticmethod
+    def of_kind(own: StrutBinding) -> _StrutEnds:
+        named = np.stack([own.near, own.far, own.left, own.right], axis=1)
+        rows = np.column_stack([named, own.corner])[own.kind == STRUT]
+        _, first, of = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+        some = np.flatnonzero(own.kind == STRUT)[first]
+        near, far, left, right = named[some].T
+        return _StrutEnds(near, far, left, right, own.corner[some], of.ravel())
+
+
+@dataclass(frozen=True, eq=False)
 class _Part:
     """Some octants of one kind: it, the binding of its vertices, its nodes, (p, 3) places."""
 
     octant: Octant
     own: StrutBinding
+    ends: _StrutEnds
     lookup: NodeLookup
     place: Ints
 
 
-def _place(own: StrutBinding, rows: Ints, sign: Ints, nodes: NodeFrames) -> Floats:
+def _place(
+    own: StrutBinding, ends: _StrutEnds, rows: Ints, sign: Ints, nodes: NodeFrames
+) -> Floats:
     """(p n, 3) places of the vertices of some octants of one kind; corners are left out."""
     count = len(rows)
-    near, far = rows[:, own.near], rows[:, own.far]
     radial = sign[:, None, :] * own.radial
-    found = np.zeros((*near.shape, 3))
+    found = np.zeros((count, len(own.kind), 3))
     is_strut, is_sphere = own.kind == STRUT, own.kind == SPHERE
     if is_strut.any():
         found[:, is_strut] = _on_struts(
-            near[:, is_strut].ravel(),
-            far[:, is_strut].ravel(),
-            rows[:, own.left[is_strut]].ravel(),
-            rows[:, own.right[is_strut]].ravel(),
-            np.repeat(sign.prod(axis=1), is_strut.sum()),
+            ends, rows, sign.prod(axis=1),
             np.tile(own.turn[is_strut], count),
-            np.tile(own.corner[is_strut], count),
             radial[:, is_strut].reshape(-1, 3),
             np.tile(own.along[is_strut], count),
             np.tile(own.share[is_strut], count),
             np.tile(own.scale[is_strut], count),
             nodes,
-        ).reshape(count, -1, 3)
+        ).reshape(count, -1, 3)  # fmt: skip
     if is_sphere.any():
         found[:, is_sphere] = _on_spheres(
-            near[:, is_sphere].ravel(),
+            rows[:, own.near[is_sphere]].ravel(),
             radial[:, is_sphere].reshape(-1, 3),
             np.tile(own.share[is_sphere], count),
             np.tile(own.scale[is_sphere], count),
@@ -185,42 +212,52 @@ def _place(own: StrutBinding, rows: Ints, sign: Ints, nodes: NodeFrames) -> Floa
 
 
 def _on_struts(
-    near: Ints,
-    far: Ints,
-    left: Ints,
-    right: Ints,
+    ends: _StrutEnds,
+    rows: Ints,
     sense: Ints,
     turn: Floats,
-    corner: Floats,
     radial: Floats,
     along: Floats,
     share: Floats,
     scale: Floats,
     nodes: NodeFrames,
 ) -> Floats:
+    near, far, left, right = (
+        rows[:, own].ravel() for own in (ends.near, ends.far, ends.left, ends.right)
+    )
+    # The end, of those of all the octants, that each vertex lies at.
+    at = (len(ends.near) * np.arange(len(rows))[:, None] + ends.of).ravel()
     strut = _struts(near, far, nodes)
-    start, axis = strut.start, strut.axis
     if nodes.rotation is not None:
-        turned = (1.0 - along)[:, None, None] * nodes.rotation[near]
-        turned += along[:, None, None] * nodes.rotation[far]
+        turned = (1.0 - along)[:, None, None] * nodes.rotation[near[at]]
+        turned += along[:, None, None] * nodes.rotation[far[at]]
+        axis = strut.axis[at]
         radial = _across(np.einsum("nij,nj->ni", turned, radial), axis)
         # At the joint a ruling lies between the same struts, and as far between them, as it did;
         # towards the middle it is just turned with the strut.
-        off = np.flatnonzero(left != near)
-        sides = [nodes.points[row[off]] - start[off] for row in (left, right)]
-        first, second = (_across(side, axis[off]) for side in sides)
-        about = sense[off, None] * axis[off]
+        beside = left != near
+        some = np.flatnonzero(beside)
+        off = np.flatnonzero(beside[at])
+        own = (np.cumsum(beside) - 1)[at[off]]
+        sides = [nodes.points[row[some]] - strut.start[some] for row in (left, right)]
+        first, second = (_across(side, strut.axis[some]) for side in sides)
+        about = np.repeat(sense, len(ends.near))[some, None] * strut.axis[some]
         angle = counter_clockwise(first, second, about)
-        angle[left[off] == right[off]] = 2.0 * np.pi
-        angle *= _turns(turn[off], corner[off], axis[off], sides, about, near[off], nodes)
-        own = np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * np.cross(about, first)
+        angle[left[some] == right[some]] = 2.0 * np.pi
+        corner = np.tile(ends.corner, len(rows))[some]
+        angle = angle[own] * _turns(
+            turn[off], own, corner, strut.axis[some], sides, about, near[some], nodes
+        )
+        ahead = np.cross(about, first)
+        ruling = np.cos(angle)[:, None] * first[own] + np.sin(angle)[:, None] * ahead[own]
         mixed = np.clip(share[off], 0.0, 1.0)[:, None]
-        radial[off] = _across((1.0 - mixed) * own + mixed * radial[off], axis[off])
-    begin = _crease(strut, radial, near, far, nodes)
+        radial[off] = _across((1.0 - mixed) * ruling + mixed * radial[off], axis[off])
+    begin = _crease(strut, radial, near, far, nodes, at)
+    strut = strut.take(at)
     room = strut.middle - begin
     tight = int(np.argmin(room / strut.radius))
     if room[tight] < LEAST_ROOM * strut.radius[tight]:
-        place = place_text(start[tight] + begin[tight] * axis[tight])
+        place = place_text(strut.start[tight] + begin[tight] * strut.axis[tight])
         raise VolfrepError(
             f"Near {place} struts of radius {strut.radius[tight]:.3g} mm and "
             f"length {strut.length[tight]:.3g} mm grow into each other: reduce the radius or let "
@@ -231,6 +268,7 @@ def _on_struts(
 
 def _turns(
     turn: Floats,
+    own: Ints,
     corner: Floats,
     axis: Floats,
     sides: list[Floats],
@@ -241,16 +279,29 @@ def _turns(
     """(n,) turns from left to right where the creases with both meet elsewhere than they did.
 
     Where another strut hides that place, the creases are others than they were, and all stays.
+
+    Args:
+        turn: (n,) as they were.
+        own: (n,) the end of a strut that each is at, which the rest is of.
+        corner: (e,) the turns at which the creases met; 0 where they did not.
+        axis: (e, 3).
+        sides: (e, 3) from the node along the struts on the left and on the right.
+        about: (e, 3) as of `corner_turns`.
+        near: (e,) nodes.
+        nodes: all of them.
     """
-    result = turn.copy()
     some = np.flatnonzero(corner > 0.0)
     left, right = (side[some] for side in sides)
-    was, before, near = corner[some], turn[some], near[some]
-    now = corner_turns(
+    near = near[some]
+    now = corner.copy()
+    now[some] = corner_turns(
         axis[some], left, right, about[some], nodes.directions[near], nodes.neighbours[near] >= 0
     )
-    now = np.where(now > 0.0, np.clip(now, AT_SIDE, 1.0 - AT_SIDE), was)
-    result[some] = np.where(
+    now = np.where(now > 0.0, np.clip(now, AT_SIDE, 1.0 - AT_SIDE), corner)[own]
+    result = turn.copy()
+    meets = np.flatnonzero(corner[own] > 0.0)
+    before, was, now = turn[meets], corner[own[meets]], now[meets]
+    result[meets] = np.where(
         before < was, before * now / was, 1.0 - (1.0 - before) * (1.0 - now) / (1.0 - was)
     )
     return result
@@ -258,7 +309,7 @@ def _turns(
 
 @dataclass(frozen=True, eq=False)
 class _Struts:
-    """The struts of some vertices, from the nearer node: one row a vertex.
+    """The struts of some vertices, or of some of their ends, from the nearer node.
 
     Attributes:
         start, axis: (n, 3) the node, mm, and the unit vector to the other one.
@@ -272,6 +323,13 @@ class _Struts:
     radius: Floats
     slope: Floats
     middle: Floats
+
+    def take(self, rows: Ints) -> _Struts:
+        """Those of the rows."""
+        return _Struts(
+            self.start[rows], self.axis[rows], self.length[rows],
+            self.radius[rows], self.slope[rows], self.middle[rows],
+        )  # fmt: skip
 
     def point(self, t: Floats, radial: Floats, scale: Floats) -> Floats:
         """(n, 3) points at t mm along the struts, off them as the scale says."""
@@ -290,7 +348,9 @@ def _struts(near: Ints, far: Ints, nodes: NodeFrames) -> _Struts:
     return _Struts(start, axis, length, radius, (other - radius) / length, middle)
 
 
-def _crease(strut: _Struts, radial: Floats, near: Ints, far: Ints, nodes: NodeFrames) -> Floats:
+def _crease(
+    strut: _Struts, radial: Floats, near: Ints, far: Ints, nodes: NodeFrames, at: Ints
+) -> Floats:
     ends = nodes.neighbours[near]
     return crease(
         strut.axis,
@@ -301,6 +361,7 @@ def _crease(strut: _Struts, radial: Floats, near: Ints, far: Ints, nodes: NodeFr
         nodes.directions[near],
         nodes.slopes[near],
         (ends >= 0) & (ends != far[:, None]),
+        at,
     )
 
 

@@ -293,6 +293,7 @@ def crease(
     directions: Floats,
     slopes: Floats,
     others: NDArray[np.bool_],
+    strut: Ints | None = None,
 ) -> Floats:
     """Where rulings leave the joint that their strut begins at.
 
@@ -301,32 +302,40 @@ def crease(
     x.e >= 0, and inside the joint sphere while |x| <= joint: quadratic equations in t.
 
     Args:
-        axis: (n, 3) unit direction d of the strut, away from the node.
-        radial: (n, 3) unit vector n across it.
-        radius: (n,) of all the struts at the node, mm.
-        slope: (n,) by which the strut's radius grows along d.
-        joint: (n,) radius of the joint sphere, mm.
-        directions: (n, k, 3) unit directions e of the struts at the node.
-        slopes: (n, k) by which their radii grow.
-        others: (n, k) bool, whether there is such a strut, and it is not this one.
+        axis: (m, 3) unit directions d of the struts, away from the node.
+        radial: (n, 3) unit vectors n across them, one a ruling.
+        radius: (m,) of all the struts at the node, mm.
+        slope: (m,) by which the strut's radius grows along d.
+        joint: (m,) radius of the joint sphere, mm.
+        directions: (m, k, 3) unit directions e of the struts at the node.
+        slopes: (m, k) by which their radii grow.
+        others: (m, k) bool, whether there is such a strut, and it is not this one.
+        strut: (n,) which strut each ruling lies on; None: each on one of its own.
 
     Returns:
         (n,) t in mm.
     """
+    own: Ints | slice = slice(None) if strut is None else strut
     growth = 1.0 + slope**2
     back = radius * slope
-    last = (-back + np.sqrt(back**2 + growth * (joint**2 - radius**2))) / growth
-    off = np.einsum("nj,nkj->nk", radial, directions)
-    turn = np.einsum("nj,nkj->nk", axis, directions) + slope[:, None] * off
-    off *= radius[:, None]
-    lean = 1.0 + slopes**2
-    tapered = radius[:, None] * slopes
-    square = growth[:, None] - lean * turn**2
-    half = back[:, None] - lean * off * turn - tapered * turn
-    constant = -lean * off**2 - 2.0 * tapered * off
-    within = half**2 - square * constant
-    real = others & (within >= 0.0) & (square > PARALLEL)
-    root = (np.sqrt(np.where(real, within, 0.0)) - half) / np.where(real, square, 1.0)
-    real &= off + turn * root >= 0.0
-    result: Floats = np.maximum(last, np.where(real, root, 0.0).max(axis=1, initial=0.0))
+    result: Floats = (-back + np.sqrt(back**2 + growth * (joint**2 - radius**2))) / growth
+    result = np.maximum(result[own], 0.0)
+    growth, back, radius, slope = growth[own], back[own], radius[own], slope[own]
+    x, y, z = (np.ascontiguousarray(each) for each in radial.T)
+    # Strut by strut at the node: what a few thousand rulings need stays in the cache.
+    for k in np.flatnonzero(others.any(axis=0)):
+        ex, ey, ez = (np.ascontiguousarray(each) for each in directions[:, k].T)
+        ahead = axis[:, 0] * ex + axis[:, 2] * ez + axis[:, 1] * ey
+        off = x * ex[own] + z * ez[own] + y * ey[own]
+        turn = ahead[own] + slope * off
+        off *= radius
+        grows = slopes[own, k]
+        lean, tapered = 1.0 + grows**2, radius * grows
+        square = growth - lean * turn**2
+        half = back - lean * off * turn - tapered * turn
+        within = half**2 + square * (lean * off**2 + 2.0 * tapered * off)
+        real = others[own, k] & (within >= 0.0) & (square > PARALLEL)
+        root = (np.sqrt(np.where(real, within, 0.0)) - half) / np.where(real, square, 1.0)
+        real &= off + turn * root >= 0.0
+        np.maximum(result, root, out=result, where=real)
     return result

@@ -157,6 +157,11 @@ def test_a_ruling_leaves_its_joint_where_marching_along_it_says(radius):
         np.full(40, joint), np.tile(directions, (40, 1, 1)), np.tile(slopes, (40, 1)),
         np.tile(np.arange(6) > 0, (40, 1)),
     )  # fmt: skip
+    of_one_strut = crease(
+        axis[None], radial, np.array([radius]), np.array([slope]), np.array([joint]),
+        directions[None], slopes[None], (np.arange(6) > 0)[None], np.zeros(40, np.int64),
+    )  # fmt: skip
+    np.testing.assert_array_equal(of_one_strut, found)
     t = np.arange(0.0, 12.0, 0.001)
     for k in range(40):
         points = t[:, None] * axis + (radius + slope * t)[:, None] * radial[k]

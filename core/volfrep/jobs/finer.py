@@ -47,8 +47,8 @@ def until_sound(
         except FacetsCross:
             continue
         note = (
-            f"With {octant_spec.facets} facets along a cell some would run through each other "
-            f"where struts meet: {facets} are made."
+            f"With {octant_spec.facets} facets along a cell some would run through each other: "
+            f"{facets} are made."
         )
         return made, finer, (note,)
     raise first

@@ -17,9 +17,10 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..util.ragged import rows_of
+from ..util.ragged import rows_of, spread
 from ..util.types import Bools, Floats, Ints
 from . import remesh
+from .closest import closest_on_triangles
 from .patches import FaultFinder, without_faults
 from .topology import (
     adjacent,
@@ -268,6 +269,7 @@ def _rules(
     longest = float(sides.min(axis=1).max(initial=0.0)) * (1.0 + 1e-9)
     normal = remesh.unit_normals(corners)
     begin, facet = remesh.grouped(triangles.ravel(), np.repeat(np.arange(len(triangles)), 3), count)
+    sharp = _are_sharp(triangles, normal, count)
 
     def away(vertex: Ints, place: Floats) -> Floats:
         """How far from the planes about each vertex a place is."""
@@ -276,6 +278,22 @@ def _rules(
         result = np.zeros(len(vertex))
         np.maximum.at(result, owner, np.abs(height))
         return np.where(fixed[vertex] & (place != points[vertex]).any(axis=1), np.inf, result)
+
+    def apart(lost: Ints, left: Ints) -> Floats:
+        """How far the facets about each vertex are from those with another in its place."""
+        row, owner = rows_of(begin, lost)
+        old = triangles[facet[row]]
+        at = (old == lost[owner, None]).argmax(axis=1)
+        other = points[old[np.arange(len(old)), (at + 1) % 3]]
+        new = points[np.where(old == lost[owner, None], left[owner, None], old)]
+        result = np.zeros(len(lost))
+        for place, facets in (
+            (points[lost[owner]], new),
+            (0.5 * (points[lost[owner]] + other), new),
+            (0.5 * (points[left[owner]] + other), points[old]),
+        ):
+            np.maximum.at(result, owner, _nearest(place, facets, owner))
+        return result
 
     def merge(gone: Ints, kept: Ints) -> tuple[Floats, Floats]:
         result, target = np.full(len(gone), np.inf), points[kept]
@@ -292,6 +310,10 @@ def _rules(
         cost = np.where(onto, one, two)
         target = np.where(onto[:, None], points[kept], points[gone])
         length = np.linalg.norm(points[gone] - points[kept], axis=1)
+        # At the tip of a lip, or the bottom of a slot, all planes are near however far it moves.
+        lost, left = (np.where(onto, *ends) for ends in ((gone, kept), (kept, gone)))
+        asked = np.flatnonzero((cost <= allowed) & (length > allowed) & sharp[lost])
+        cost[asked] = np.maximum(cost[asked], apart(lost[asked], left[asked]))
         return np.where(cost <= allowed, length, np.inf), target
 
     def improves(before: Floats, after: Floats) -> Bools:
@@ -302,6 +324,28 @@ def _rules(
 
     rules = remesh.Rules(fixed.astype(np.int64), is_free, _never, improves, merge)
     return rules, max(longest, 1e-300)
+
+
+def _are_sharp(triangles: Ints, normal: Floats, count: int) -> Bools:
+    """(n,) whether facets about a point look farther than `TURN` from where they look together."""
+    corner, facing = triangles.ravel(), np.repeat(normal, 3, axis=0)
+    total = np.stack([np.bincount(corner, facing[:, k], count) for k in range(3)], axis=1)
+    mean = total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
+    result = np.zeros(count, bool)
+    result[corner[np.einsum("ij,ij->i", facing, mean[corner]) < TURN]] = True
+    return result
+
+
+def _nearest(places: Floats, facets: Floats, owner: Ints) -> Floats:
+    """(k,) how far places are from the nearest of the facets (k, 3, 3) of the same owner."""
+    number = np.bincount(owner)
+    begin = np.cumsum(number) - number
+    one, turn = spread(number[owner])
+    other = begin[owner[one]] + turn
+    closest = closest_on_triangles(facets[other], places[one])[0]
+    result = np.full(len(places), np.inf)
+    np.minimum.at(result, one, np.linalg.norm(closest - places[one], axis=1))
+    return result
 
 
 def _improves(before: Floats, after: Floats, tolerance: Tolerance) -> Bools:

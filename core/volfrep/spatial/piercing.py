@@ -13,12 +13,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.closest import closest_on_triangles
 from ..mesh.triangle_mesh import TriangleMesh, corners_at, triangle_boxes
 from ..util.linalg import cross_columns, dot_columns
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
-from .proximity import closest_on_triangles
 from .self_intersection import about, portions_of_pairs
 
 Signs = NDArray[np.int8]

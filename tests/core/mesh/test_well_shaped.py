@@ -147,3 +147,24 @@ def test_a_flip_makes_no_edge_that_others_have():
     mesh = fill(samples.sphere(11.0), spec).mesh
     better = mend_bad_facets(mesh, Tolerance(0.03), 0.15, no_fault)
     assert measure(better).watertight
+
+
+def test_the_tip_of_a_thin_lip_stays():
+    """All planes about it are within a fifth of the tolerance of what lies 0.2 mm behind it."""
+    section = np.array([[0.0, 0.0], [0.2, 0.002], [10.0, 0.1], [10.0, -0.1], [0.2, -0.002]])
+    count, rows = len(section), 6
+    points = np.array([[x, 2.0 * row, z] for row in range(rows) for x, z in section])
+    a, b = np.arange(count), (np.arange(count) + 1) % count
+    ring = np.concatenate([[a, b, b + count], [a, b + count, a + count]], axis=1).T
+    sides = [ring + row * count for row in range(rows - 1)]
+    end = np.array([[0, 1, 4], [1, 3, 4], [1, 2, 3]])
+    facets = np.concatenate([*sides, end[:, ::-1], end + (rows - 1) * count])
+    mesh = TriangleMesh(points, facets[:, ::-1].astype(np.int32))
+    assert measure(mesh).watertight
+    better = mend_bad_facets(mesh, Tolerance(TOLERANCE), 0.1, no_fault)
+    assert is_bad(corners(better)).sum() < is_bad(corners(mesh)).sum()
+    for one, other in ((mesh, better), (better, mesh)):
+        at = corners(one)
+        middles = 0.5 * (at + np.roll(at, 1, axis=1))
+        places = np.concatenate([at, middles], axis=1).reshape(-1, 3)
+        assert closest_points(other, places)[1].max() < 2.0 * TOLERANCE

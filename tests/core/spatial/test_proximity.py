@@ -4,11 +4,11 @@ import pytest
 import trimesh
 
 import samples
+from volfrep.mesh.closest import closest_on_triangles
 from volfrep.mesh.triangle_mesh import empty_mesh
 from volfrep.spatial.proximity import (
     POINTS_PER_WALK,
     are_nearer,
-    closest_on_triangles,
     closest_points,
     index_surface,
     neighbours,

@@ -32,6 +32,7 @@ from ..util.types import Bools, Floats, Ints
 from .facet_grading import grade_facets, side_lengths
 from .folds import folded_facets
 from .single_moves import without_faults
+from .strayed import farthest_apart
 from .stuffed_mesh import FACES, bodies_of, face_pairs, signed_volumes, stuffed_mesh
 
 #: A solver needs about 50 kB for each of these: more are not a job for tetrahedra.
@@ -132,6 +133,7 @@ class TetrahedralMesh:
     improved: bool = True
     lattice: float = 0.0
     away: tuple[float, float] = (0.0, 0.0)
+    strayed: float = 0.0
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -244,7 +246,11 @@ def filled_by_gmsh(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrah
         raise _cannot_fill("it made tetrahedra that are inside out")
     nodes, elements = _second_order(points, corners)
     grown = float(volumes.sum()) / mesh.volume - 1.0
-    return TetrahedralMesh(nodes, elements, moved=moved, grown=grown, improved=improved)
+    strayed = 0.0
+    if moved:
+        outside = TriangleMesh(points, face_pairs(corners)[1].astype(np.int32))
+        strayed = monitor.call(lambda: farthest_apart(mesh, outside))
+    return TetrahedralMesh(nodes, elements, moved, grown, improved, strayed=strayed)
 
 
 def _filled_from_lattice(

@@ -8,7 +8,7 @@ import os
 from ..fem.beam_mesh import beam_model, fitted_beams
 from ..fem.deck import write_beams, write_tetrahedra
 from ..fem.joint_loads import side_joints
-from ..fem.tet_mesh import nodes_on, tetrahedra
+from ..fem.tet_mesh import TetrahedralMesh, nodes_on, tetrahedra
 from ..reports.estimate import (
     Estimate,
     estimate_beams,
@@ -60,4 +60,21 @@ class TetrahedraWriter(Writer):
         if outside is not None:
             sets["SKIN"] = nodes_on(filled, outside)
         write_tetrahedra(filled, path, settings.material, sets=sets)
-        return Written(filled.warnings)
+        return Written(*_told(filled, source.spec.deviation))
+
+
+def _told(
+    filled: TetrahedralMesh, deviation: float | None
+) -> tuple[tuple[str, ...], tuple[tuple[str, str], ...]]:
+    """Warnings and rows: how far the tetrahedra's surface is from the mesh's, where mended."""
+    if not filled.strayed:
+        return filled.warnings, ()
+    away = f"{filled.strayed:.2g} mm"
+    warnings = filled.warnings
+    if deviation is not None and filled.strayed > deviation:
+        warnings = (
+            *warnings,
+            f"The tetrahedra's surface is up to {away} from the mesh's, which is more than the "
+            f"deviation of {deviation:.3g} mm: a finer deviation keeps it nearer.",
+        )
+    return warnings, (("surface", f"within {away} of the mesh's, its needles mended"),)

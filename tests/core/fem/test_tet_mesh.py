@@ -236,6 +236,7 @@ def test_a_volume_that_mending_changed_is_told(monkeypatch):
     filled = tetrahedra(box)
     assert filled.grown == pytest.approx(-0.01)
     assert "-1.00%" in filled.warnings[0]
+    assert filled.strayed == pytest.approx(np.abs(thinner.bounds - box.bounds).max())
     monkeypatch.setattr(tet_mesh, "mend_surface", lambda mesh, *_: (mesh, 0.0))
     assert tetrahedra(box).warnings == ()
 

@@ -159,6 +159,42 @@ def test_a_sheet_is_as_thick_as_wanted_from_side_to_side() -> None:
     assert np.quantile(found, [0.03, 0.97]) == pytest.approx(0.8, rel=0.05)
 
 
+def gyroids_distance(points):
+    """How far points are from the gyroid, by Newton's method on its formula and along it."""
+    turn = 2.0 * np.pi / SIZE
+
+    def value(at):
+        x, y, z = turn * at.T
+        return np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x)
+
+    def slope(at):
+        x, y, z = turn * at.T
+        parts = [(np.cos(p) * np.cos(q) - np.sin(r) * np.sin(p))
+                 for p, q, r in ((x, y, z), (y, z, x), (z, x, y))]  # fmt: skip
+        return turn * np.stack(parts, axis=1)
+
+    foot = points.copy()
+    for _ in range(40):
+        normal = slope(foot)
+        size = np.einsum("ij,ij->i", normal, normal)[:, None]
+        foot -= normal * value(foot)[:, None] / size
+        gap = points - foot
+        foot += 0.5 * (gap - normal * np.einsum("ij,ij->i", gap, normal)[:, None] / size)
+    return np.linalg.norm(points - foot, axis=1)
+
+
+def test_facets_stray_no_farther_than_the_deviation_allows() -> None:
+    thickness, deviation = 0.5, 0.02
+    spec = LatticeSpec("Gyroid", SIZE, wall=TpmsSheet("sheet", thickness), deviation=deviation)
+    found = octants("Gyroid", thickness=thickness, facets=spec.facets_along_cell)
+    a, b, c = lay(laid_block(found, 1), Monitor()).corners()
+    middle = (a + b + c) / 3.0
+    inner = ((middle > 0.05) & (middle < SIZE - 0.05)).all(axis=1)
+    points = np.concatenate([middle[inner], 0.5 * (a + b)[inner]])
+    strays = np.abs(gyroids_distance(points) - 0.5 * thickness)
+    assert 0.5 * deviation < strays.max() < 1.5 * deviation
+
+
 @pytest.mark.costly
 @pytest.mark.parametrize(
     ("name", "thickness"),

@@ -17,10 +17,12 @@ from ..spec_fields import Kind
 from ..spec_parts import MAX_RESOLUTION
 from ..tpms import PeriodicSurface
 from ..tpms.measures import strongest_curvature, surface_area
-from ..tpms.sheet import wanted_facets
+from ..tpms.sheet import BOW, wanted_facets
 
 #: Facets on one side of a wall, for each area of a facet's edge squared.
 TRIANGLES_OF_SIDE = 2.5
+#: Walls reach this far into a bend at most, in its radii: beyond, their sides meet in creases.
+MOST_INSIDE = 0.5
 
 
 class Tpms(Kind):
@@ -135,7 +137,7 @@ class Tpms(Kind):
         """
         spec = self.spec
         wanted = spec.resolution or wanted_facets(
-            spec.cell_size, spec.detail.deviation, strongest_curvature(self.surface)
+            spec.cell_size, spec.detail.deviation, self._strongest_curvature
         )
         facets = max(wanted, self.coarsest_resolution)
         if facets > MAX_RESOLUTION:
@@ -147,7 +149,14 @@ class Tpms(Kind):
 
     def deviation_of(self, facets: int) -> float:
         """As of `Kind`, by the surface's curvature."""
-        return strongest_curvature(self.surface) * self.spec.cell_size / (16.0 * facets**2)
+        return BOW * self._strongest_curvature * self.spec.cell_size / facets**2
+
+    @property
+    def _strongest_curvature(self) -> float:
+        """Of the walls' own surface, over L: on the inside of a bend stronger than the middle's."""
+        middle, wall = strongest_curvature(self.surface), self.spec.wall
+        away = 0.5 * self.thicknesses[1] if wall.is_sheet else abs(wall.offset)
+        return middle / (1.0 - min(middle * away / self.spec.cell_size, MOST_INSIDE))
 
     @property
     def too_coarse(self) -> str:

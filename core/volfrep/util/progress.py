@@ -108,7 +108,10 @@ def release_memory() -> None:
 
 def peak_memory_of(process: int | str) -> float:
     """Peak resident memory of a process so far, in MB (0 where Linux' /proc does not tell)."""
-    with suppress(OSError), open(f"/proc/{process}/status", errors="replace") as file:
+    with (
+        suppress(OSError),
+        open(f"/proc/{process}/status", encoding="utf-8", errors="replace") as file,
+    ):
         for line in file:
             if line.startswith("VmHWM:"):
                 return int(line.split()[1]) / 1024.0

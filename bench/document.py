@@ -81,7 +81,7 @@ def _machines(results: dict[str, dict[str, Any]]) -> str:
     ]
     if last["peer_packages"]:
         others = ", ".join(f"{name} {number}" for name, number in last["peer_packages"].items())
-        lines.append(f"- Other tools, {others}.")
+        lines.append(f"- Other tools: {others}.")
     dates = [machine["date"] for machine in found.values()]
     loads = [machine["load"] for machine in found.values()]
     lines.append(

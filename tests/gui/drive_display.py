@@ -403,6 +403,12 @@ def colours(obj):
     quantity.setCurrentIndex(quantity.findData("Overhang"))
     check("overhangs go to 90 degrees", wait_until(lambda: high.value() == 90.0), high.value())
     picture("colours_3_overhang")
+    click(high)
+    view.ColourBy = "Radius"
+    wait_until(lambda: abs(high.value() - ends[1]) < 1e-9)
+    check("the field in use follows, too", high.hasFocus(), high.value())
+    view.ColourBy = "Overhang"
+    check("and back again", wait_until(lambda: high.value() == 90.0), high.value())
     saved_picture = OUT / "colours_picture.png"
     saved_picture.unlink(missing_ok=True)
     answer_file_dialog(saved_picture, "colours_3_saving")

@@ -155,6 +155,7 @@ class ColourDock(ObjectDock):
         fits_any_width(self._said)  # in the line it would make the window wider than the screen
         column.addWidget(self._said)
         self._why = ""
+        self._ends: tuple[float, float] | None = None
         view = Gui.getDocument(obj.Document.Name).activeView()
         self._probe: Probe | None = Probe(view, colours.shapes, self._tell)
         self._timer = QtCore.QTimer(self)
@@ -198,8 +199,7 @@ class ColourDock(ObjectDock):
         elif self._said.text() == self._why:
             self._tell(None)
         self._why = why
-        if ends is not None and not self._range.isAncestorOf(QtWidgets.QApplication.focusWidget()):
-            self._range.show_ends(*ends)
+        self._show_ends()
 
     def slotChangedObject(self, obj: App.DocumentObject, name: str) -> None:  # noqa: N802
         """Called by FreeCAD: the struts of a new mesh are others."""
@@ -245,11 +245,15 @@ class ColourDock(ObjectDock):
     def _set_range(self, low: float, high: float) -> None:
         self._colours.set_range(low, high)
         if low == high:
+            self._ends = None
             self._show_ends()
 
     def _show_ends(self) -> None:
-        if self._colours.range is not None:
-            self._range.show_ends(*self._colours.range)
+        """Show the ends once they are others: what is being typed stays until then."""
+        ends = self._colours.range
+        if ends is not None and ends != self._ends:
+            self._ends = ends
+            self._range.show_ends(*ends)
 
     def _tell(self, place: tuple[float, float, float] | None) -> None:
         value = None if place is None else self._colours.value_at(place)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import Skin
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.proximity import SurfaceIndex, closest_points, index_surface
+from ..spatial.proximity import PointCubes, SurfaceIndex, closest_points, index_surface
 from ..util.threads import threads
 from ..util.types import Floats
 
@@ -31,8 +31,6 @@ FIELD_DEPTH = 1.05
 #: The surface is sampled this often along the diagonal of the part's box, and with no more points.
 SAMPLES_ALONG = 150.0
 MOST_SAMPLES = 2_000_000
-#: Points that one vectorised step takes at a time.
-POINTS_PER_STEP = 100_000
 
 
 def kinds_of_triangles(mesh: TriangleMesh, solid: TriangleMesh, spec: LatticeSpec) -> Kinds:
@@ -53,21 +51,28 @@ def kinds_of_triangles(mesh: TriangleMesh, solid: TriangleMesh, spec: LatticeSpe
     diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
     spacing = max(min(diagonal / SAMPLES_ALONG, spec.shell), np.sqrt(solid.area / MOST_SAMPLES))
     surface = index_surface(solid, spacing)
-    beyond, thinnest = _beyond_skin(surface, mesh.vertices, solid, spec.skin)
+    depths = _Depths(mesh.vertices)
+    beyond, thinnest = _beyond_skin(surface, depths, solid, spec.skin)
     corners = mesh.triangles
     kinds = np.full(len(corners), LATTICE, np.uint8)
-    kinds[beyond[corners].max(axis=1) <= 0.0] = WALL
+    kinds[_all_corners(beyond <= 0.0, corners)] = WALL
     most = OUTSIDE_DEPTH * thinnest
-    outermost = _depth(surface, mesh.vertices, most)[corners].max(axis=1) <= most
+    outermost = np.flatnonzero(_all_corners(depths.below(surface, most) <= most, corners))
     # Where struts end in an open face, triangles reach from their ends into the skin's rim.
-    kinds[outermost & (beyond[corners].mean(axis=1) <= 0.0)] = OUTSIDE
+    kinds[outermost[beyond[corners[outermost]].mean(axis=1) <= 0.0]] = OUTSIDE
     return kinds
 
 
+def _all_corners(chosen: NDArray[np.bool_], corners: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """(t,) whether all corners, (t, 3), of a triangle are chosen ones."""
+    first, second, third = (chosen[corners[:, k]] for k in range(3))
+    return np.asarray(first & second & third)
+
+
 def _beyond_skin(
-    surface: SurfaceIndex, points: Floats, solid: TriangleMesh, skin: Skin | None
+    surface: SurfaceIndex, depths: _Depths, solid: TriangleMesh, skin: Skin | None
 ) -> tuple[Floats, float]:
-    """(n,) how far beyond the skin's wall (n, 3) points lie, mm, and its least thickness.
+    """(n,) how far beyond the skin's wall points lie, mm, and its least thickness.
 
     Infinite for most that are farther off.
     """
@@ -75,14 +80,15 @@ def _beyond_skin(
     lengths = skin.thicknesses(solid)
     groups = [(lengths.usual, skin.thickness)] if lengths.usual.any() else []
     groups += lengths.others
+    points = depths.points
     beyond = np.full(len(points), np.inf)
     for faces, length in groups:
         index = surface if faces.all() else surface.without(~faces)
         most = WALL_DEPTH * length
         if skin.field is None or faces is not lengths.usual:
-            beyond = np.minimum(beyond, _depth(index, points, most) - most)
+            beyond = np.minimum(beyond, depths.below(index, most) - most)
             continue
-        depth = _depth(index, points, FIELD_DEPTH * skin.deepest)
+        depth = depths.below(index, FIELD_DEPTH * skin.deepest)
         near = np.flatnonzero(np.isfinite(depth))
         there = FIELD_DEPTH * np.maximum(length, skin.field(points[near]))
         beyond[near] = depth[near] - there
@@ -96,16 +102,32 @@ def _beyond_skin(
     return beyond, min(length for _, length in groups)
 
 
-def _depth(surface: SurfaceIndex, points: Floats, most: float) -> Floats:
-    """(n,) distances of (n, 3) points to the surface, mm; infinite for most that are farther off.
+class _Depths:
+    """How deep points lie below surfaces.
 
-    Most points of a lattice are: to see that they have no sample within reach takes little time.
+    Most points of a lattice are too deep to count: whole cubes of them are told so at once.
+
+    Args:
+        points: (n, 3) mm.
     """
-    reach = most + 0.75 * surface.spacing
-    depth = np.full(len(points), np.inf)
-    for first in range(0, len(points), POINTS_PER_STEP):
-        step = points[first : first + POINTS_PER_STEP]
-        found = surface.tree.query(step, distance_upper_bound=reach, workers=threads())[0]
-        within = np.flatnonzero(np.isfinite(found))
-        depth[first + within] = surface.near(step[within])[1]
-    return depth
+
+    def __init__(self, points: Floats) -> None:
+        self.points = points
+        self._cubes = PointCubes(points)
+
+    def below(self, surface: SurfaceIndex, most: float) -> Floats:
+        """(n,) distances to a surface, mm; infinite for most points that are farther off."""
+        reach = most + 0.75 * surface.spacing
+        rows = self._cubes.points_in(
+            _are_within(surface, self._cubes.middles, reach + self._cubes.half_diagonal)
+        )
+        rows = rows[_are_within(surface, self.points[rows], reach)]
+        depth = np.full(len(self.points), np.inf)
+        depth[rows] = surface.near(self.points[rows])[1]
+        return depth
+
+
+def _are_within(surface: SurfaceIndex, points: Floats, reach: float) -> NDArray[np.bool_]:
+    """(n,) whether a sample of the surface is within reach of (n, 3) points."""
+    found = surface.tree.query(points, distance_upper_bound=reach, workers=threads())[0]
+    return np.asarray(np.isfinite(found))

@@ -161,21 +161,15 @@ class NearestTriangles:
         """Rows of points in cubes, of several points each, that may be nearer than the reach."""
         if len(points) < POINTS_PER_STEP:
             return np.arange(len(points))
-        low = points.min(axis=0)
-        span = points.max(axis=0) - low
-        size = max(float(span.max()), 1e-300) / (len(points) / POINTS_PER_CUBE) ** (1.0 / 3.0)
-        shape = tuple((span / size).astype(np.int64) + 1)
-        cube = np.ravel_multi_index(tuple(((points - low) / size).astype(np.int64).T), shape)
-        held = np.flatnonzero(np.bincount(cube))
-        middle = low + size * (np.stack(np.unravel_index(held, shape), axis=1) + 0.5)
-        within = (reach + 0.5 * 1.001 * np.sqrt(3.0) * size) ** 2
-        near = np.zeros(int(np.prod(shape)), bool)
-        for start in range(0, len(held), POINTS_PER_STEP):
-            part = slice(start, start + POINTS_PER_STEP)
-            found = _near_boxes(self._boxes, middle[part], np.full(len(middle[part]), within))
+        cubes = PointCubes(points)
+        within = (reach + cubes.half_diagonal) ** 2
+        near = np.zeros(len(cubes.middles), bool)
+        for start in range(0, len(near), POINTS_PER_STEP):
+            middles = cubes.middles[start : start + POINTS_PER_STEP]
+            found = _near_boxes(self._boxes, middles, np.full(len(middles), within))
             # Where they are near too many boxes to be told here, they are near some.
-            near[held[part] if found is None else held[part][found[0]]] = True
-        return np.flatnonzero(near[cube])
+            near[start + (np.arange(len(middles)) if found is None else found[0])] = True
+        return cubes.points_in(near)
 
     def _find_nearer(self, points: Floats, reach: Floats) -> NDArray[np.bool_] | None:
         """As `are_nearer`; None where that would take too much memory at once."""
@@ -206,6 +200,36 @@ class NearestTriangles:
         # Boxes are as far as their triangles but for rounding.
         slack = (1e-12 * np.abs(self._corners).max()) ** 2
         return np.asarray(squares(points - closest) * (1.0 + 1e-9) + slack)
+
+
+class PointCubes:
+    """Points told apart by equal cubes, of several points each, so that many are asked at once.
+
+    Args:
+        points: (n, 3) float64, mm, at least one.
+
+    Attributes:
+        middles: (c, 3) of the cubes that hold any, mm.
+        half_diagonal: no point of a cube is farther from its middle, mm.
+    """
+
+    def __init__(self, points: Floats) -> None:
+        low = points.min(axis=0)
+        span = points.max(axis=0) - low
+        size = max(float(span.max()), 1e-300) / max(len(points) / POINTS_PER_CUBE, 1) ** (1 / 3)
+        shape = tuple((span / size).astype(np.int64) + 1)
+        columns = (((points[:, k] - low[k]) / size).astype(np.int64) for k in range(3))
+        self._cube = np.ravel_multi_index(tuple(columns), shape)
+        self._held = np.flatnonzero(np.bincount(self._cube))
+        self._count = int(np.prod(shape))
+        self.middles = low + size * (np.stack(np.unravel_index(self._held, shape), axis=1) + 0.5)
+        self.half_diagonal = 0.5 * 1.001 * float(np.sqrt(3.0)) * size
+
+    def points_in(self, chosen: NDArray[np.bool_]) -> Ints:
+        """Rows of the points in some of the cubes, (c,) bool."""
+        marked = np.zeros(self._count, bool)
+        marked[self._held[chosen]] = True
+        return np.flatnonzero(marked[self._cube])
 
 
 def _box_tree(corners: Floats) -> tuple[list[Floats], Ints]:

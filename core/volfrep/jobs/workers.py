@@ -12,6 +12,7 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from ..design.memory_guard import free_memory
 from ..process.kept_pool import KeptPool
 from ..process.worker import Ending
 from ..util.errors import VolfrepError
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 #: Every so many triangles are worth a process that helps to make them.
 WORTH_WORKER = 150_000
+#: What a worker takes of the memory beside the fill, bytes: 0.13 to 0.17 GB were measured.
+WORKER_BYTES = 0.2e9
 #: Where what workers are given lies.
 MODULES = (
     "volfrep.trim.boolean_trim", "volfrep.octants.octant_mesh", "volfrep.io.write.stl",
@@ -33,9 +36,14 @@ _kept = KeptPool(MODULES)
 
 
 def worth_processes(spec: LatticeSpec, expected: Forecast) -> int:
-    """How many processes a fill is worth, this one among them: at most one a core."""
-    is_cut = spec.kind.is_cut_in_groups and spec.output != "domain"
-    return min(threads(), 1 + int(expected.triangles) // WORTH_WORKER) if is_cut else 1
+    """How many processes a fill is worth, this one among them: at most one a core.
+
+    Nor more than the memory that is free has room for, beside what the fill takes itself.
+    """
+    if not spec.kind.is_cut_in_groups or spec.output == "domain":
+        return 1
+    room = (free_memory() - 1e9 * expected.memory_gb) // WORKER_BYTES
+    return min(threads(), 1 + int(expected.triangles) // WORTH_WORKER, 1 + max(int(room), 0))
 
 
 @contextmanager

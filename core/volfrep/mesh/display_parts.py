@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .shading import Shaded, shade, sharp_edges
-from .topology import edges_of
-from .triangle_mesh import TriangleMesh, compact
+from .topology import triangles_across
+from .triangle_mesh import TriangleMesh, compact, rows_where
 from .vertex_cluster import cluster_vertices
 
 #: Triangles of a piece: a graphics driver without a card takes them in a few hundredths of a
@@ -24,7 +24,7 @@ from .vertex_cluster import cluster_vertices
 PIECE = 20_000
 #: Meshes of more triangles are drawn as a proxy of so many first.
 AT_ONCE = 120_000
-#: No triangle on the other side.
+#: No triangle on the other side: -1 without its sign.
 NOTHING = 0xFFFFFFFF
 
 
@@ -93,7 +93,7 @@ def drawn_parts(
     has_proxy = len(mesh.triangles) > AT_ONCE
     for kind in np.unique(kinds).tolist():
         rows = kinds == kind
-        whole = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
+        whole = compact(TriangleMesh(mesh.vertices, rows_where(rows, mesh.triangles)), owned=True)
         part = cluster_vertices(whole, most)
         first = None
         if has_proxy:
@@ -168,10 +168,7 @@ def facets_with_neighbours(mesh: TriangleMesh) -> NDArray[np.uint32]:
 
     Side k goes from corner k to the next.
     """
-    count = len(mesh.triangles)
-    across = np.full(3 * count, NOTHING, np.uint32)
-    one, two = edges_of(mesh).pairs()
-    across[one], across[two] = two // 3, one // 3
-    facets = np.empty((count, 6), np.uint32)
-    facets[:, :3], facets[:, 3:] = mesh.triangles, across.reshape(-1, 3)
+    facets = np.empty((len(mesh.triangles), 6), np.uint32)
+    facets[:, :3] = mesh.triangles
+    facets[:, 3:] = triangles_across(mesh).view(np.uint32)
     return facets

@@ -155,6 +155,54 @@ def edges_of(mesh: TriangleMesh) -> Sides:
     return Sides(sides, number, count, 2 * forward - count)
 
 
+def triangles_across(mesh: TriangleMesh) -> NDArray[np.int32]:
+    """(t, 3) the triangle across each side, from a corner to the next; -1 unless there is just one.
+
+    Found of some triangles at a time: an edge is used in two blocks only if both its ends are.
+
+    Args:
+        mesh: any.
+    """
+    triangles, count = mesh.triangles, len(mesh.vertices)
+    starts = range(0, len(triangles), BLOCK_TRIANGLES)
+    shared = _in_several_blocks(triangles, starts, count)
+    across = np.full(triangles.size, -1, np.int32)
+
+    def join(keys: Ints, sides: Ints) -> None:
+        order = np.argsort(keys)
+        keys = keys[order]
+        same = np.concatenate([[False], keys[1:] == keys[:-1], [False]])
+        two = np.flatnonzero(same[1:-1] & ~same[:-2] & ~same[2:])
+        one, other = sides[order[two]], sides[order[two + 1]]
+        across[one], across[other] = other // 3, one // 3
+
+    def block(start: int) -> tuple[Ints, Ints]:
+        part = triangles[start : start + BLOCK_TRIANGLES]
+        one, two = part.ravel(), np.roll(part, -1, axis=1).ravel()
+        keys = edge_keys(one.astype(np.int64), two.astype(np.int64), count)
+        sides = 3 * start + np.arange(len(keys))
+        elsewhere = shared[one] & shared[two]
+        join(keys[~elsewhere], sides[~elsewhere])
+        return keys[elsewhere], sides[elsewhere]
+
+    left = list(in_threads(block, starts))
+    if left:
+        keys, sides = (np.concatenate(each) for each in zip(*left, strict=True))
+        join(keys, sides)
+    return across.reshape(-1, 3)
+
+
+def _in_several_blocks(triangles: NDArray[np.int32], starts: range, count: int) -> Bools:
+    """(n,) which of so many vertices triangles of several blocks use."""
+    last, shared = np.full(count, -1, np.int32), np.zeros(count, bool)
+    for start in starts:
+        corners = triangles[start : start + BLOCK_TRIANGLES].ravel()
+        before = last[corners]
+        shared[corners[(before >= 0) & (before != start)]] = True
+        last[corners] = start
+    return shared
+
+
 @dataclass(frozen=True, eq=False)
 class EdgeUses:
     """How often the edges of a mesh are used, and what hangs together.
@@ -191,12 +239,7 @@ def edge_uses(
     """
     backend, size = backend or ParallelBackend(), np.int64(len(mesh.vertices))
     starts = range(0, len(mesh.triangles), BLOCK_TRIANGLES)
-    last, shared = np.full(size, -1, np.int32), np.zeros(size, bool)
-    for start in starts:
-        corners = mesh.triangles[start : start + BLOCK_TRIANGLES].ravel()
-        before = last[corners]
-        shared[corners[(before >= 0) & (before != start)]] = True
-        last[corners] = start
+    shared = _in_several_blocks(mesh.triangles, starts, len(mesh.vertices))
     with backend.sharing(shared) as (is_shared,):
         every = triangles or LocalArray(mesh.triangles)
         given = ((every, start, BLOCK_TRIANGLES, is_shared) for start in starts)

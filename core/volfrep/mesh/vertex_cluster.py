@@ -12,13 +12,17 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from ..util.threads import in_threads
+from ..util.types import Floats, Ints
 from .topology import pieces_of
-from .triangle_mesh import TriangleMesh, compact
+from .triangle_mesh import TRIANGLES_PER_STEP, TriangleMesh, compact
 
 #: Triangles on each square of the raster that a surface runs through.
 TRIANGLES_PER_SQUARE = 2.5
 #: How much coarser the raster is made where the mesh came out with too many triangles.
 COARSER = 1.3
+#: A raster of no more cubes for each point is counted as a whole.
+CUBES_PER_POINT = 4
 
 
 def cluster_vertices(mesh: TriangleMesh, most: int) -> TriangleMesh:
@@ -50,14 +54,32 @@ def is_outside(mesh: TriangleMesh) -> NDArray[np.bool_]:
 
 
 def _cluster(mesh: TriangleMesh, step: float) -> TriangleMesh:
-    cube = np.floor((mesh.vertices - mesh.bounds[0]) / step).astype(np.int64)
-    size = cube.max(axis=0) + 1
-    key = (cube[:, 0] * size[1] + cube[:, 1]) * size[2] + cube[:, 2]
-    _, index, count = np.unique(key, return_inverse=True, return_counts=True)
+    index, count = _cubes_of(mesh.vertices, step)
     vertices = np.stack(
         [np.bincount(index, mesh.vertices[:, axis]) / count for axis in range(3)], axis=1
     )
-    t = index.ravel()[mesh.triangles]
-    t = t[(t[:, 0] != t[:, 1]) & (t[:, 1] != t[:, 2]) & (t[:, 2] != t[:, 0])]
-    t = np.take_along_axis(t, (t.argmin(axis=1)[:, None] + np.arange(3)) % 3, axis=1)
-    return compact(TriangleMesh(vertices, np.unique(t, axis=0).astype(np.int32)))
+
+    def block(start: int) -> Ints:
+        t = index[mesh.triangles[start : start + TRIANGLES_PER_STEP]]
+        t = t[(t[:, 0] != t[:, 1]) & (t[:, 1] != t[:, 2]) & (t[:, 2] != t[:, 0])]
+        return np.take_along_axis(t, (t.argmin(axis=1)[:, None] + np.arange(3)) % 3, axis=1)
+
+    starts = range(0, len(mesh.triangles), TRIANGLES_PER_STEP)
+    t = np.unique(np.concatenate(list(in_threads(block, starts))), axis=0)
+    return compact(TriangleMesh(vertices, t.astype(np.int32)))
+
+
+def _cubes_of(points: Floats, step: float) -> tuple[Ints, Ints]:
+    """(n,) the cube of each point, of those that hold any, and (c,) how many points these hold."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    size = np.floor((high - low) / step).astype(np.int64) + 1
+    key = np.zeros(len(points), np.int64)
+    for k in range(3):
+        key *= size[k]
+        key += ((points[:, k] - low[k]) / step).astype(np.int64)
+    if size.prod() > CUBES_PER_POINT * len(points):  # of a surface that fills little of its box
+        _, index, count = np.unique(key, return_inverse=True, return_counts=True)
+        return index.ravel(), count
+    held = np.bincount(key, minlength=int(size.prod()))
+    number = np.cumsum(held > 0) - 1
+    return number[key], held[held > 0]

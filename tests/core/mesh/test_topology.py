@@ -57,6 +57,25 @@ def test_edges_that_blocks_have_in_common_are_counted_as_if_there_were_none(
     assert found.pieces == expected.max() + 1 >= 3
 
 
+@pytest.mark.parametrize(("block", "seed"), [(1, 0), (7, 1), (1 << 17, 2)])
+def test_the_triangle_across_a_side_is_the_only_other_one_on_it(block, seed, monkeypatch):
+    mesh = torn(seed)
+    monkeypatch.setattr(topology, "BLOCK_TRIANGLES", block)
+    on = {}
+    for row, triangle in enumerate(mesh.triangles.tolist()):
+        for k in range(3):
+            edge = frozenset((triangle[k], triangle[(k + 1) % 3]))
+            on.setdefault(edge, []).append(3 * row + k)
+    expected = np.full(mesh.triangles.size, -1)
+    for sides in on.values():
+        if len(sides) == 2:
+            expected[sides] = sides[1] // 3, sides[0] // 3
+    assert (expected >= 0).any()
+    assert (expected < 0).any()
+    found = topology.triangles_across(mesh)
+    np.testing.assert_array_equal(found, expected.reshape(-1, 3))
+
+
 def test_a_mesh_has_the_same_figures_in_blocks(monkeypatch):
     mesh = concatenate(samples.sphere(9.0, 2), samples.sphere(4.0, 1).reversed())
     whole = inspect(mesh)
@@ -72,6 +91,8 @@ def test_a_mesh_has_the_same_figures_in_blocks(monkeypatch):
 def test_what_is_empty_has_no_edges():
     nothing = edge_uses(TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32)))
     assert (nothing.count, nothing.pieces) == (0, 0)
+    empty = TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int32))
+    assert topology.triangles_across(empty).shape == (0, 3)
 
 
 @pytest.mark.parametrize(("count", "pairs"), [(0, 0), (5, 0), (300, 200), (300, 300), (9, 400)])

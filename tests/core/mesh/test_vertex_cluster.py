@@ -8,6 +8,7 @@ import samples
 from volfrep.design.spec import LatticeSpec
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
+from volfrep.mesh import vertex_cluster
 from volfrep.mesh.vertex_cluster import cluster_vertices, is_outside
 from volfrep.spatial.proximity import closest_points
 
@@ -26,6 +27,14 @@ def test_it_lies_where_the_mesh_does():
     assert np.abs(coarse.bounds - mesh.bounds).max() < spacing
     assert closest_points(mesh, coarse.vertices)[1].max() < 0.2 * spacing
     assert closest_points(coarse, mesh.vertices)[1].max() < spacing
+
+
+def test_a_raster_that_is_not_counted_as_a_whole_tells_the_same(monkeypatch):
+    whole = cluster_vertices(samples.sphere(20.0, 5), 2000)
+    monkeypatch.setattr(vertex_cluster, "CUBES_PER_POINT", 0)
+    sparse = cluster_vertices(samples.sphere(20.0, 5), 2000)
+    np.testing.assert_array_equal(whole.triangles, sparse.triangles)
+    np.testing.assert_array_equal(whole.vertices, sparse.vertices)
 
 
 def test_a_small_mesh_stays_itself():

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from .run_options import INPUTS, OUTPUTS
 
 if TYPE_CHECKING:
     from ..io.solid import Solid
+    from ..mesh.triangle_mesh import TriangleMesh
 
 
 def check_files(
@@ -55,13 +56,19 @@ def check_files(
                 )
 
 
-def read_part(file: str, unit: str | None, cell_size: float) -> Solid:
+def read_part(
+    file: str,
+    unit: str | None,
+    cell_size: float,
+    seen: Callable[[TriangleMesh], None] = lambda mesh: None,
+) -> Solid:
     """The solid of a file, proved.
 
     Args:
         file: its path.
         unit: of its lengths; None for what it says.
         cell_size: L in mm; a part of a file without a unit must be of a size that goes with it.
+        seen: as of `read_solid`.
 
     Raises:
         VolfrepError: it is no solid, or of another size by far.
@@ -70,7 +77,7 @@ def read_part(file: str, unit: str | None, cell_size: float) -> Solid:
     from ..io.solid import read_solid
 
     part = Path(file)
-    solid = read_solid(part, unit)
+    solid = read_solid(part, unit, seen=seen)
     if not solid.states_unit:
         refuse_scale(solid.bounds, cell_size, part.name)
     return solid

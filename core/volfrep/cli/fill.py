@@ -32,7 +32,9 @@ if TYPE_CHECKING:
     from ..design.forecast import BeamForecast, Forecast
     from ..design.spec import LatticeSpec
     from ..io.solid import Solid
+    from ..mesh.triangle_mesh import TriangleMesh
     from ..output.sources import Block, FilledPart, FreeGraph
+    from ..process.head_start import HeadStart
     from ..process.worker import Ending
     from ..reports.estimate import Estimate
     from ..reports.printability import PrintReport
@@ -40,8 +42,11 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def _workers(options: FillOptions, worth: int) -> Iterator[Executor | None]:
-    """Those that the options ask for; where they do not, as many processes as it is worth."""
+def _workers(options: FillOptions, worth: int, first: HeadStart) -> Iterator[Executor | None]:
+    """Those that the options ask for; where they do not, as many processes as it is worth.
+
+    `first` may have started one of these; it ends where it is none of them.
+    """
     from ..jobs.workers import MODULES, lost_worker
     from ..process.cluster import dask_workers
     from ..process.pool import processes
@@ -62,7 +67,9 @@ def _workers(options: FillOptions, worth: int) -> Iterator[Executor | None]:
         print(f"volfrep: {lost_worker(ending)}", file=sys.stderr, flush=True)
 
     modules = MODULES if worth > 1 else ()  # imported while this process goes on
-    with processes(count, modules, warn_lost, with_this=options.workers is None) as beside:
+    with_this = options.workers is None
+    with processes(count, modules, warn_lost, with_this=with_this, first=first) as beside:
+        first.end()
         yield beside
 
 
@@ -73,17 +80,38 @@ def run_fill(given: argparse.Namespace) -> None:
         _fill_surface(options)
         return
 
+    from ..jobs.workers import MODULES
+    from ..process.head_start import HeadStart
+
+    first = HeadStart(MODULES)
+    try:
+        _fill_part(options, first)
+    finally:
+        first.end()
+
+
+def _fill_part(options: FillOptions, first: HeadStart) -> None:
+    """Read a part, which `first` may be started for, and fill it."""
+    from ..jobs.workers import worth_head_start, worth_processes
+
+    spec, meshed = options.spec, options.form.meshed
+    asked = options.workers is not None or options.scheduler is not None or bool(options.limits)
+
+    def seen(mesh: TriangleMesh) -> None:
+        if meshed and not asked and worth_head_start(spec, mesh):
+            first.begin()
+
+    start = time.perf_counter()
+    solid = read_part(options.part, options.unit, spec.cell_size, seen)
+    read_seconds = time.perf_counter() - start
+
+    # What follows is loaded while a worker starts.
     from ..design.forecast import forecast_fill, forecast_fill_beams
     from ..jobs.kinds import lattice_kind
     from ..jobs.targets import solve_target
-    from ..jobs.workers import worth_processes
     from ..output.sources import FilledPart
     from ..process.pool import let_go
 
-    spec, meshed = options.spec, options.form.meshed
-    start = time.perf_counter()
-    solid = read_part(options.part, options.unit, spec.cell_size)
-    read_seconds = time.perf_counter() - start
     if options.limits:
         _fill_within(options, solid, start, {"read": read_seconds})
         return
@@ -97,7 +125,7 @@ def run_fill(given: argparse.Namespace) -> None:
             told = str(forecast_fill_beams(solid, rough))
         print(f"Expected: {told}.", flush=True)
     worth = worth_processes(spec, expected) if meshed else 1
-    with _workers(options, worth) as executor, drawn(options.quiet) as progress:
+    with _workers(options, worth, first) as executor, drawn(options.quiet) as progress:
         made = solve_target(
             solid, spec, progress=progress, meshed=meshed, executor=executor,
             streamed=options.is_file_alone,

@@ -78,6 +78,7 @@ def read_solid(
     unit: str | None = None,
     *,
     progress: ProgressCallback | None = None,
+    seen: Callable[[TriangleMesh], None] = lambda mesh: None,
 ) -> Solid:
     """Read a closed solid from an STL, OBJ, PLY, 3MF, STEP, IGES or BREP file.
 
@@ -86,6 +87,7 @@ def read_solid(
         unit: of its lengths, a name in `volfrep.io.read.units.UNITS`; None for what the file says,
             and mm where it says nothing.
         progress: called while FreeCAD reads a CAD file; returning False cancels.
+        seen: told its triangles in mm as they are, before they are looked at.
 
     Returns:
         The checked solid in mm, as `check_solid` returns it.
@@ -104,6 +106,7 @@ def read_solid(
     """
     check_path("path", path)
     mesh, notes, states_unit = _in_mm(path, unit, progress)
+    seen(mesh)
     solid = check_solid(mesh, Path(path).name)
     return Solid(
         solid.vertices, solid.triangles, solid.repairs, (*notes, *solid.warnings), states_unit

@@ -21,6 +21,7 @@ from ..util.threads import threads
 if TYPE_CHECKING:
     from ..design.forecast import Forecast
     from ..design.spec import LatticeSpec
+    from ..mesh.triangle_mesh import TriangleMesh
 
 #: Every so many triangles are worth a process that helps to make them.
 WORTH_WORKER = 150_000
@@ -40,10 +41,26 @@ def worth_processes(spec: LatticeSpec, expected: Forecast) -> int:
 
     Nor more than the memory that is free has room for, beside what the fill takes itself.
     """
-    if not spec.kind.is_cut_in_groups or spec.output == "domain":
-        return 1
     room = (free_memory() - 1e9 * expected.memory_gb) // WORKER_BYTES
-    return min(threads(), 1 + int(expected.triangles) // WORTH_WORKER, 1 + max(int(room), 0))
+    return min(_worth(spec, expected.triangles), 1 + max(int(room), 0))
+
+
+def worth_head_start(spec: LatticeSpec, mesh: TriangleMesh) -> bool:
+    """Whether a part is so large that others will help, before it is known to be a solid.
+
+    It is seldom wrong: where the skin leaves less, or the mesh is no solid.
+    """
+    if spec.target is not None:  # how thick it will be is not known yet
+        return False
+    from ..design.forecast import expected_triangles
+
+    triangles = expected_triangles(spec, abs(mesh.volume))
+    return _worth(spec, triangles) > 1 and free_memory() > WORKER_BYTES
+
+
+def _worth(spec: LatticeSpec, triangles: float) -> int:
+    is_cut = spec.kind.is_cut_in_groups and spec.output != "domain"
+    return min(threads(), 1 + int(triangles) // WORTH_WORKER) if is_cut else 1
 
 
 @contextmanager

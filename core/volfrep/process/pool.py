@@ -19,6 +19,7 @@ from ..util.errors import VolfrepError
 from ..util.parallel import ParallelBackend
 from ..util.progress import POLL_SECONDS, Monitor, peak_memory_of
 from ..util.threads import threads
+from .head_start import HeadStart
 from .worker import Call, Ending, Program, Worker, WorkerLost, this_python
 
 T = TypeVar("T")
@@ -49,6 +50,7 @@ class WorkerPool(ThreadPoolExecutor):
         lost: called, on any thread, with how a worker has ended that should not have.
         with_this: this process makes calls as well, on a thread, where no worker is idle. The
             workers start now.
+        first: one that has started already; None for none.
     """
 
     def __init__(
@@ -58,8 +60,10 @@ class WorkerPool(ThreadPoolExecutor):
         lost: Callable[[Ending], None] = lambda _: None,
         *,
         with_this: bool = False,
+        first: Worker | None = None,
     ) -> None:
         super().__init__(count + with_this, "volfrep-worker")
+        self._first = first
         self._program, self.lost, self._losses = program, lost, 0
         self._changing = threading.Lock()
         self._is_open = True
@@ -165,7 +169,7 @@ class WorkerPool(ThreadPoolExecutor):
             if not self._is_open or self._losses >= MOST_LOST:
                 raise WorkerLost(Ending("before it began"))
             try:
-                worker = Worker(self._program)
+                worker, self._first = self._first or Worker(self._program), None
             except OSError as error:
                 raise WorkerLost(Ending("before it began", str(error))) from error
             self.workers.append(worker)
@@ -197,6 +201,7 @@ def processes(
     lost: Callable[[Ending], None] = lambda _: None,
     *,
     with_this: bool = False,
+    first: HeadStart | None = None,
 ) -> Iterator[Executor | None]:
     """An executor of so many processes; None where that is one.
 
@@ -206,11 +211,13 @@ def processes(
             does something else. Empty: they import them when they are first given something.
         lost: told, on any thread, how a process has ended that should not have.
         with_this: as of `pool_of`.
+        first: as of `pool_of`.
 
     Raises:
         VolfrepError: fewer than one is wanted.
     """
-    pool = pool_of(threads() if count is None else count, modules, lost, with_this=with_this)
+    count = threads() if count is None else count
+    pool = pool_of(count, modules, lost, with_this=with_this, first=first)
     try:
         yield pool
     finally:
@@ -224,6 +231,7 @@ def pool_of(
     lost: Callable[[Ending], None],
     *,
     with_this: bool = False,
+    first: HeadStart | None = None,
 ) -> WorkerPool | None:
     """So many processes, as of `processes`, which are not ended; None where that is one.
 
@@ -232,6 +240,7 @@ def pool_of(
         modules: as of `processes`.
         lost: as of `processes`.
         with_this: where they are few this process is one of them, so that one less is started.
+        first: what may have started one of them already.
 
     Raises:
         VolfrepError: as `processes`.
@@ -242,7 +251,8 @@ def pool_of(
         return None
     with_this = with_this and count <= FEW
     program = this_python(max(1, threads() // count), *modules)
-    return WorkerPool(program, count - with_this, lost, with_this=with_this)
+    worker = first.taken(program) if first is not None else None
+    return WorkerPool(program, count - with_this, lost, with_this=with_this, first=worker)
 
 
 def on_this_machine(executor: Executor | None) -> WorkerPool | None:

@@ -30,6 +30,7 @@ from volfrep.jobs.pipeline import fill as fill_solid
 from volfrep.mesh.quality import measure
 from volfrep.process import cluster as dask
 from volfrep.process import pool
+from volfrep.process.head_start import HeadStart
 from volfrep.trim import boolean_trim, octant_groups
 from volfrep.util import threads
 
@@ -67,7 +68,9 @@ def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
 ) -> None:
     asked: list[tuple[int, Sequence[str], bool]] = []
 
-    def nobody(count: int, modules: Sequence[str], lost: object, *, with_this: bool) -> NoReturn:
+    def nobody(
+        count: int, modules: Sequence[str], lost: object, *, with_this: bool, first: object
+    ) -> NoReturn:
         asked.append((count, modules, with_this))
         raise VolfrepError("Nobody is there.")
 
@@ -78,6 +81,32 @@ def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
         assert fill(part, tmp_path / "out.stl", "--quiet", "--cell-size", 12, *given) == 2
     modules = fill_workers.MODULES
     assert asked == [(1, (), True), (3, (), False), (5, modules, True), (3, modules, False)]
+
+
+def test_one_starts_early_where_a_part_is_large_enough_and_nothing_else_is_asked_for(
+    tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    began: list[str] = []
+
+    def nobody(*given: object, **named: object) -> NoReturn:
+        raise VolfrepError("Nobody is there.")
+
+    monkeypatch.setattr(pool, "processes", nobody)
+    monkeypatch.setattr(threads, "_wanted", 5)
+    thick, thin = ("--strut-radius", 0.8), ("--relative-density", 0.2)
+    for name, worth, given in (
+        ("large", 1, thick),
+        ("small", 10**9, thick),
+        ("so many", 1, (*thick, "--workers", 3)),
+        ("a wall", 1, (*thick, "--make", "domain")),
+        ("a target", 1, thin),
+    ):
+        monkeypatch.setattr(fill_workers, "WORTH_WORKER", worth)
+        monkeypatch.setattr(HeadStart, "begin", lambda self, name=name: began.append(name))
+        lattice = ["--cell", "CVC", "--cell-size", "8"]
+        assert command.fill(lattice, part, tmp_path / "out.stl", "--quiet", *given) == 2
+        assert "Nobody is there." in capsys.readouterr().err
+    assert began == ["large"]
 
 
 @pytest.mark.costly

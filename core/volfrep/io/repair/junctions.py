@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ...mesh.topology import edges_of
 from ...mesh.triangle_mesh import TriangleMesh, compact
@@ -84,6 +83,8 @@ def _split(mesh: TriangleMesh, tolerance: float) -> tuple[TriangleMesh, int]:
 
 def _on_open_sides(mesh: TriangleMesh, tolerance: float) -> tuple[Ints, Ints, Floats]:
     """Open sides, the vertices of other open sides on them, and how far along they lie (0 to 1)."""
+    from scipy.spatial import cKDTree  # slow to import
+
     none = np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0)
     edges = edges_of(mesh)
     open_sides = edges.open_sides

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from ...mesh.topology import edges_of, pieces_of
 from ...mesh.triangle_mesh import TriangleMesh, compact
@@ -40,6 +39,8 @@ def weld_near(mesh: TriangleMesh, tolerance: float) -> TriangleMesh | None:
         None where there are too many such pairs, or where a chain of them would draw vertices
         together that are much farther apart than the tolerance.
     """
+    from scipy.spatial import cKDTree  # slow to import
+
     edges = edges_of(mesh)
     loose = np.unique(edges.sides[edges.open_sides])
     cells = np.floor((mesh.vertices[loose] - mesh.bounds[0]) / tolerance).astype(np.int64)
@@ -100,6 +101,8 @@ def _widest_gap(mesh: TriangleMesh, most: float) -> float:
 
     Infinite where one finds none within `most`.
     """
+    from scipy.spatial import cKDTree  # slow to import
+
     edges = edges_of(mesh)
     if not len(edges.open_sides):
         return 0.0

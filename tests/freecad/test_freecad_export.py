@@ -13,7 +13,7 @@ from conftest import SMALL
 from freecad_volfrep import export_mesh, make_lattice_infill, make_solid
 from freecad_volfrep.bridge.exact import without_surface_curves
 from freecad_volfrep.bridge.faceted import faceted_solid
-from freecad_volfrep.bridge.meshes import from_freecad, to_freecad, with_neighbours
+from freecad_volfrep.bridge.meshes import from_freecad, to_freecad
 from freecad_volfrep.features.export.faceted_solid import predict_solid
 from freecad_volfrep.features.export.input_files import refuse_inputs_of_all
 from freecad_volfrep.features.export.layer_export import (
@@ -31,7 +31,6 @@ from freecad_volfrep.features.export.mesh_file import (
 from freecad_volfrep.features.export.printer_file import export_for_printer
 from freecad_volfrep.features.export.solver_files import CONTENTS
 from volfrep.jobs.slices import FORMATS as FORMS_OF_LAYERS
-from volfrep.mesh.display_parts import facets_with_neighbours
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.output.form import suffixes
 from volfrep.util.errors import VolfrepError
@@ -47,13 +46,17 @@ def test_meshes_pass_both_ways_unchanged():
     again = from_freecad(to_freecad(mesh))
     assert np.array_equal(mesh.vertices, again.vertices)
     assert np.array_equal(mesh.triangles, again.triangles)
-    assert to_freecad(mesh).isSolid()
-    quick = with_neighbours(mesh.vertices, facets_with_neighbours(mesh))
-    again = from_freecad(quick)
-    assert np.array_equal(mesh.vertices, again.vertices)
-    assert np.array_equal(mesh.triangles, again.triangles)
-    assert quick.isSolid()
-    assert quick.CountEdges == to_freecad(mesh).CountEdges
+    made = to_freecad(mesh)
+    assert made.isSolid()
+    assert made.CountEdges == Mesh.createSphere(10, 60).CountEdges
+
+
+def test_an_open_mesh_passes_with_its_border():
+    mesh = from_freecad(Mesh.createBox(3, 3, 3))
+    made = to_freecad(TriangleMesh(mesh.vertices, mesh.triangles[1:]))
+    assert made.CountFacets == 11
+    assert made.CountEdges == 18
+    assert not made.isSolid()
 
 
 def test_an_empty_mesh_passes():

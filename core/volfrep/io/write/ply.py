@@ -9,7 +9,6 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ...mesh.precision import BLOCK_ROWS
 from ...mesh.triangle_mesh import TriangleMesh
 from ...trim.trimmed_surface import TrimmedSurface
 from ...util.files import replacing
@@ -52,12 +51,6 @@ def write_ply(
             written += len(chunk)
             if monitor is not None:
                 monitor.tick(written / (12 * given.vertices + FACE.itemsize * given.triangles))
-
-
-def ply_chunks(vertices: NDArray[np.float32], triangles: NDArray[np.int32]) -> Iterator[bytes]:
-    """The bytes of the file, piece by piece."""
-    blocks = (triangles[k : k + BLOCK_ROWS] for k in range(0, len(triangles), BLOCK_ROWS))
-    yield from _chunks(len(vertices), len(triangles), [vertices.astype("<f4")], blocks)
 
 
 def _chunks(

@@ -303,6 +303,19 @@ class WorkerBackend(ParallelBackend):
         while waiting:
             yield first()
 
+    def begun(self, function: Callable[..., T], *given: Any) -> Callable[[], T]:
+        """As of any backend; what a worker was lost with is made here."""
+        try:
+            future = self._executor.submit(function, *given)
+        except RuntimeError:  # as in `starmap`
+            return super().begun(function, *given)
+
+        def made() -> T:
+            is_lost = future.cancelled() or future.exception() is not None
+            return function(*given) if is_lost else future.result()
+
+        return made
+
 
 def backend_of(executor: Executor | None) -> ParallelBackend:
     """An executor's processes of this machine; threads for any other."""

@@ -33,7 +33,9 @@ FARTHER = 2.0
 MIX = np.array((0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9), np.uint64)
 
 
-def without_crossings(mesh: TriangleMesh, thickness: float, monitor: Monitor) -> TriangleMesh:
+def without_crossings(
+    mesh: TriangleMesh, thickness: float, monitor: Monitor, known: Judged | None = None
+) -> TriangleMesh:
     """The wall of a cavity with no facets that run through each other.
 
     Two sides of a cavity pass each other only where the room between them ends, or by a hair
@@ -45,12 +47,13 @@ def without_crossings(mesh: TriangleMesh, thickness: float, monitor: Monitor) ->
         mesh: a closed oriented manifold, outward, mm.
         thickness: of the wall, mm.
         monitor: for progress and cancel.
+        known: of the mesh, where it was looked at.
 
     Returns:
         The mesh itself where nothing crosses. After `ROUNDS` a few facets may still cross.
     """
     reach = BEYOND * thickness
-    known = find_new_crossings(mesh, monitor)
+    known = known or find_new_crossings(mesh, monitor)
     best, fewest = mesh, len(known.pairs)
     for _ in range(ROUNDS):
         if not fewest:
@@ -126,7 +129,7 @@ class Judged:
 
 
 def find_new_crossings(
-    mesh: TriangleMesh, monitor: Monitor, before: Judged | None = None
+    mesh: TriangleMesh, monitor: Monitor | None = None, before: Judged | None = None
 ) -> Judged:
     """Where a mesh runs through itself, looked for where it differs from one that is known.
 
@@ -134,7 +137,7 @@ def find_new_crossings(
 
     Args:
         mesh: the surface, mm.
-        monitor: asked for a cancel.
+        monitor: asked for a cancel; None where there is nobody to ask.
         before: what is known of a mesh that shares triangles with it.
 
     Raises:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Decimation of a contoured wall, which leaves no facets that run through each other."""
+"""Decimation of a contoured wall."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..util.manifold import has_manifold, manifold_library
 from ..util.types import Bools
 from .adaptive_contour import OffsetSurface
-from .crossing_plugs import without_crossings
 from .dual_contouring import Facets, fan_edges, with_fans
 from .sampled_depth import DepthField
 
@@ -24,17 +23,16 @@ SECANTS = 5
 
 
 def simplify(surface: OffsetSurface, field: DepthField) -> TriangleMesh:
-    """The wall with fewer facets, none of which run through each other.
+    """The wall with fewer facets, a few of which may run through each other (`crossing_plugs`).
 
     Where two polygons would have the same two corners they are replaced by fans. Without
     manifold3d all facets stay.
     """
-    call, thickness = field.depth.monitor.call, field.depth.thickness
+    call = field.depth.monitor.call
     facets = _with_fans(surface, call(surface.crossings.doubled), field)
     if not has_manifold():
-        return without_crossings(facets.mesh, thickness, field.depth.monitor)
-    simple = call(partial(_simplify, facets.mesh, TOLERANCE * thickness))
-    return without_crossings(simple, thickness, field.depth.monitor)
+        return facets.mesh
+    return call(partial(_simplify, facets.mesh, TOLERANCE * field.depth.thickness))
 
 
 def _with_fans(surface: OffsetSurface, cut: Bools, field: DepthField) -> Facets:

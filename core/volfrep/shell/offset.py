@@ -29,9 +29,11 @@ from ..spatial.proximity import (
 from ..spatial.rays import points_within
 from ..util.errors import VolfrepError
 from ..util.manifold import has_manifold
+from ..util.parallel import ParallelBackend
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats
 from .adaptive_contour import find_offset_surface
+from .crossing_plugs import find_new_crossings, without_crossings
 from .decimation import simplify
 from .depth import Depth, open_depth
 from .moved_faces import move_faces, with_short_edges
@@ -58,6 +60,8 @@ BYTES_PER_CROSSED_CUBE = 3000
 MEMORY_LIMIT = 6e9
 #: Points by which the depth of a part is told in a refusal (a power of 2).
 DEPTH_POINTS = 12
+#: One worker looks where a wall of no more facets crosses itself; else threads do.
+SMALL_WALL = 50_000
 #: Pockets smaller than a cube of this edge, in units of the coarsest cubes, are left solid.
 SMALLEST_POCKET = 0.75
 
@@ -169,9 +173,17 @@ def _find_cavity(
     monitor.tick(0.1)
     surface = find_offset_surface(field)
     monitor.tick(0.8)
-    mesh = simplify(surface, field)
+    simple = simplify(surface, field)
     monitor.tick(0.95)
-    return _measure_error(without_small(mesh, (SMALLEST_POCKET * cube) ** 3), depth)
+    # Mostly nothing crosses, so that it is measured while a worker looks.
+    backend = monitor.backend if len(simple.triangles) <= SMALL_WALL else ParallelBackend()
+    looked = backend.begun(find_new_crossings, simple)
+    smallest = (SMALLEST_POCKET * cube) ** 3
+    measured = _measure_error(without_small(simple, smallest), depth)
+    mesh = without_crossings(simple, depth.thickness, monitor, monitor.call(looked))
+    if mesh is simple:
+        return measured
+    return _measure_error(without_small(mesh, smallest), depth)
 
 
 def _refuse_too_thin(solid: TriangleMesh, thickness: float, cubes: float, cube: float) -> None:

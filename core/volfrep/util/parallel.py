@@ -15,6 +15,7 @@ import weakref
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
@@ -115,6 +116,13 @@ class ParallelBackend:
     def starmap(self, function: Callable[..., T], given: Iterable[tuple[Any, ...]]) -> Iterator[T]:
         """What a function of a module makes of each tuple of arguments, in their order."""
         return in_threads(lambda each: function(*each), given)
+
+    def begun(self, function: Callable[..., T], *given: Any) -> Callable[[], T]:
+        """Gives what a function of a module makes of this: a process begins with it at once.
+
+        Where there is none it is made when it is asked for.
+        """
+        return partial(function, *given)
 
     @contextmanager
     def sharing(self, *arrays: NDArray[Any]) -> Iterator[tuple[SharedArray, ...]]:

@@ -14,9 +14,10 @@ import engine_calls as calls
 import pytest
 
 from volfrep.process import pool
-from volfrep.process.pool import WorkerPool, processes
+from volfrep.process.pool import WorkerPool, backend_of, let_go, processes
 from volfrep.process.worker import Ending, Worker, WorkerLost, this_python
 from volfrep.util.errors import VolfrepError
+from volfrep.util.parallel import ParallelBackend
 
 HERE = Path(__file__).parent
 
@@ -75,6 +76,21 @@ def test_a_worker_that_is_killed_is_told_at_once_and_replaced(ended: list[Ending
         assert time.monotonic() - start < 10.0
         assert str(lost.exception()) == str(ended[0]) == "by signal 9"
         assert workers.submit(calls.same, 1).result(timeout=60.0) == 1
+
+
+def test_a_call_that_is_begun_is_made_meanwhile_or_where_it_is_asked_for(
+    ended: list[Ending],
+) -> None:
+    assert ParallelBackend().begun(os.getpid)() == os.getpid()
+    with processes(2, lost=ended.append) as workers:
+        backend = backend_of(workers)
+        begun = backend.begun(calls.number_after, 0.1)
+        assert begun() != os.getpid()
+        with pytest.raises(VolfrepError, match="No paper"):
+            backend.begun(calls.refuse, "No paper.")()
+        let_go(workers)
+        assert backend.begun(calls.number_after, 0.0)() == os.getpid()
+    assert not ended
 
 
 def test_where_workers_end_again_and_again_no_other_one_is_started(

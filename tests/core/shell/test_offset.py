@@ -8,7 +8,7 @@ import trimesh
 import samples
 from bench.parts import NO_PARTS, PARTS
 from volfrep.io.solid import read_solid
-from volfrep.mesh.triangle_mesh import concatenate
+from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.shell import offset
 from volfrep.shell.offset import find_cavity
 from volfrep.spatial.self_intersection import crossing_triangles
@@ -158,3 +158,19 @@ def test_parts_with_room_thinner_than_a_voxel(name, thickness):
     assert errors.min() > -0.05
     assert np.mean(np.abs(errors) > 0.05) < 0.002
     assert errors.max() < 0.25
+
+
+def test_a_wall_that_crossed_itself_is_measured_as_it_is_in_the_end(monkeypatch):
+    solid, looked = samples.sphere(10.0, 3), []
+
+    def drawn_apart(mesh, thickness, monitor, known):
+        looked.append((len(known.names) == len(mesh.triangles), len(known.pairs)))
+        return TriangleMesh(0.9 * mesh.vertices, mesh.triangles)
+
+    plain = offset.find_cavity(solid, 2.0, Monitor())
+    monkeypatch.setattr(offset, "without_crossings", drawn_apart)
+    moved = offset.find_cavity(solid, 2.0, Monitor())
+    assert looked == [(True, 0)]
+    np.testing.assert_array_equal(moved.mesh.vertices, 0.9 * plain.mesh.vertices)
+    assert plain.worst < 0.05
+    assert moved.worst == pytest.approx(0.4, abs=0.05)

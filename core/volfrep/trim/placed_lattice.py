@@ -188,6 +188,14 @@ class InnerOctants:
         """They alone, numbered as among all."""
         return self.lattice.alone(self.where)
 
+    @property
+    def triangles(self) -> int:
+        """How many they have, without a proof of them."""
+        grid, octants = self.lattice.layout.grid, self.lattice.octants
+        kind = grid.kind[self.where]
+        often = np.bincount(kind[kind >= 0], minlength=len(grid.keys))
+        return int(sum(often * np.array([len(octants[key].triangles) for key in grid.keys])))
+
     @cached_property
     def pieces(self) -> CertifiedPieces:
         """What is proved of them by their kinds."""
@@ -263,7 +271,7 @@ class InnerOctants:
                 used[numbers(self.layout, octant, place[begin : begin + size])] = True
         return points, np.flatnonzero(used)
 
-    @property
+    @cached_property
     def bounds(self) -> Floats:
         """(2, 3) of their vertices, mm."""
         motion = self.lattice.motion

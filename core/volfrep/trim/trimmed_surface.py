@@ -88,7 +88,7 @@ class TrimmedSurface:
     @property
     def triangles(self) -> int:
         """How many there are in both parts."""
-        return len(self.mesh.triangles) + (self.octants.pieces.triangles if self.octants else 0)
+        return len(self.mesh.triangles) + (self.octants.triangles if self.octants else 0)
 
     @property
     def bounds(self) -> Floats:

@@ -380,6 +380,7 @@ def test_the_proof_of_octants_inside_is_the_same_wherever_it_is_found():
     np.testing.assert_array_equal(told.rim_points, octants.rim_points)
     np.testing.assert_array_equal(told.pieces.rim, octants.pieces.rim)
     assert told.pieces.triangles == octants.pieces.triangles
+    assert octants.triangles == octants.pieces.triangles
 
 
 @pytest.mark.costly

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,62 +92,69 @@ def merging(
     vertices: NDArray[np.float64], step: float, backend: ParallelBackend | None = None
 ) -> Ints:
     """`merging_vertices` among points (n, 3), where the decimals of a text resolve a step in mm."""
-
-    def binary(part: slice | Ints) -> NDArray[np.float32]:
-        return vertices[part].astype(np.float32)
-
-    def text(part: slice | Ints) -> NDArray[np.float32]:
-        return rounded(vertices[part], step).astype(np.float32)
-
     backend = backend or ParallelBackend()
-    twins = _twins(binary, len(vertices), backend)
-    return twins if len(twins) else _twins(text, len(vertices), backend)
+    twins = _twins(vertices, None, backend)
+    return twins if len(twins) else _twins(vertices, step, backend)
 
 
-def _twins(
-    rows: Callable[[slice | Ints], NDArray[np.float32]], size: int, backend: ParallelBackend
-) -> Ints:
+def _read(numbers: NDArray[np.float64], step: float | None) -> NDArray[np.float32]:
+    """What a reader of a binary file has of numbers; of one of text, where it resolves a step."""
+    # Zero has two signs and is one number.
+    exact = numbers if step is None else rounded(numbers, step)
+    return np.asarray(exact.astype(np.float32) + np.float32(0.0))
+
+
+def _twins(vertices: NDArray[np.float64], step: float | None, backend: ParallelBackend) -> Ints:
     """Indices of the points that share all their coordinates with another one, twins together."""
-    # Sorted by their hashes, which are made twice rather than held beside their order.
-    key = _hashes(rows, size)
     shares = KEY_SHARES
-    if size <= BLOCK_ROWS:
+    if len(vertices) <= BLOCK_ROWS:
         shares, backend = 1, ParallelBackend()
-    with backend.sharing(key) as (keys,):
-        found = backend.starmap(_find_repeated, ((keys, share, shares) for share in range(shares)))
-        shared_keys = np.concatenate(list(found))
-    if not len(shared_keys):
-        return np.zeros(0, np.int64)
-    index = np.flatnonzero(np.isin(_hashes(rows, size), shared_keys))
-    points = rows(index)
-    _, inverse, count = np.unique(
-        points + np.float32(0.0), axis=0, return_inverse=True, return_counts=True
-    )
+    with backend.sharing(vertices) as (every,):
+        given = ((every, step, share, shares) for share in range(shares))
+        index = np.sort(np.concatenate(list(backend.starmap(_find_repeated, given))))
+    if not len(index):
+        return index
+    points = _read(vertices[index], step)
+    _, inverse, count = np.unique(points, axis=0, return_inverse=True, return_counts=True)
     inverse = inverse.ravel()
     shared = count[inverse] > 1
     twins: Ints = index[shared][np.argsort(inverse[shared], kind="stable")]
     return twins
 
 
-def _find_repeated(keys: SharedArray, share: int, shares: int) -> NDArray[np.uint64]:
-    """The numbers that occur more than once, of those that leave `share` when divided."""
-    key: NDArray[np.uint64] = keys.array
-    some = key[key % np.uint64(shares) == np.uint64(share)] if shares > 1 else key
+def _find_repeated(every: SharedArray, step: float | None, share: int, shares: int) -> Ints:
+    """The points of one share, twins among them, whose numbers occur more than once in it."""
+    # Their rows are found once more rather than held beside what is sorted: mostly there are none.
+    vertices = every.array
+    some = np.concatenate([key for _, key in _numbers(vertices, step, share, shares)])
     some.sort()
-    repeated: NDArray[np.uint64] = some[1:][some[1:] == some[:-1]]
-    return repeated
+    repeated = some[1:][some[1:] == some[:-1]]
+    if not len(repeated):
+        return np.zeros(0, np.int64)
+    found = _numbers(vertices, step, share, shares)
+    return np.concatenate([rows[np.isin(key, repeated)] for rows, key in found])
 
 
-def _hashes(rows: Callable[[slice | Ints], NDArray[np.float32]], count: int) -> NDArray[np.uint64]:
-    """(count,) a number for each point, equal where the coordinates are."""
-    key = np.empty(count, np.uint64)
-    for start in range(0, count, BLOCK_ROWS):
-        part = slice(start, min(start + BLOCK_ROWS, count))
-        # Zero has two signs and is one number.
-        x, y, z = (rows(part) + np.float32(0.0)).view(np.uint32).astype(np.uint64).T
+def _numbers(
+    vertices: NDArray[np.float64], step: float | None, share: int, shares: int
+) -> Iterator[tuple[Ints, NDArray[np.uint64]]]:
+    """Points of one share, which x tells, some at a time, and a number for each.
+
+    Equal where the coordinates are.
+    """
+    yield np.zeros(0, np.int64), np.zeros(0, np.uint64)
+    for start in range(0, len(vertices), BLOCK_ROWS):
+        part = vertices[start : start + BLOCK_ROWS]
+        rows = np.arange(len(part))
+        if shares > 1:
+            bits = _read(part[:, 0], step).view(np.uint32)
+            # The lowest bits of many numbers are alike, and so are the highest.
+            mixed = (bits * np.uint32(0x9E3779B9)) >> np.uint32(16)
+            rows = np.flatnonzero(mixed % np.uint32(shares) == np.uint32(share))
+        columns = _read(corners_at(part, rows), step).view(np.uint32).astype(np.uint64)
+        x, y, z = columns.T
         with np.errstate(over="ignore"):
-            mixed = x * np.uint64(0x9E3779B97F4A7C15)
-            mixed ^= y * np.uint64(0xC2B2AE3D27D4EB4F)
-            mixed += (z << np.uint64(32)) ^ (z * np.uint64(0x165667B19E3779F9))
-        key[part] = mixed
-    return key
+            key = x * np.uint64(0x9E3779B97F4A7C15)
+            key ^= y * np.uint64(0xC2B2AE3D27D4EB4F)
+            key += (z << np.uint64(32)) ^ (z * np.uint64(0x165667B19E3779F9))
+        yield rows + start, key

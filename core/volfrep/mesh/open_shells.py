@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ..util.types import Floats, Ints
 from .float32_repair import NO_REPAIR, Repair
 from .quality import Inspection, Quality, sizes
-from .topology import edge_uses, pieces_of, touching, vertices_of
+from .topology import corners_among, edge_uses, pieces_of, touching, vertices_of, ways_along
 from .triangle_mesh import TriangleMesh
 
 #: The point that cones are drawn from.
@@ -140,12 +140,13 @@ def keeps_border(mesh: TriangleMesh, repair: Repair, beside: Ints) -> bool:
         beside: all triangles that stay and share a vertex with new ones.
     """
     size, fresh = len(mesh.vertices), repair.piece[repair.new]
-    border, was_border = _border(fresh, size), _border(mesh.triangles[repair.gone], size)
-    if border is None or was_border is None or not np.array_equal(border, was_border):
+    sides, were = _sides(fresh, size), _sides(mesh.triangles[repair.gone], size)
+    if sides is None or were is None or not np.array_equal(sides.border, were.border):
         return False
     others = np.concatenate([mesh.triangles[beside], repair.piece[~repair.new]])
-    inner = np.setdiff1d(_sides(fresh, size), border)
-    return not np.isin(_sides(others, size), inner).any()
+    # Most have no side between vertices of these.
+    others = others[corners_among(vertices_of(fresh, size), others) > 1]
+    return not np.isin(_ways(others, size), sides.inner).any()
 
 
 def quality_after_repair(
@@ -226,25 +227,38 @@ def joined_shells(
     )
 
 
-def _sides(triangles: NDArray[np.int32], size: int) -> Ints:
-    """A number for each side of triangles, between two of so many vertices, one way."""
-    start = triangles.astype(np.int64)
-    result: Ints = (start * size + np.roll(start, -1, axis=1)).ravel()
-    return result
+class _Sides(NamedTuple):
+    """The ways along the edges of some triangles, ascending.
+
+    Attributes:
+        border: of edges that are run along one way only.
+        inner: of the others.
+    """
+
+    border: Ints
+    inner: Ints
 
 
-def _border(triangles: NDArray[np.int32], size: int) -> Ints | None:
-    """The sides that are run along one way only, ascending; None where some are twice so."""
-    sides = _sides(triangles, size)
-    there = np.unique(sides)
-    if len(there) < len(sides):
+def _ways(triangles: NDArray[np.int32], size: int) -> Ints:
+    """As of `ways_along`, for each side of triangles of so many vertices."""
+    a, b, c = (np.ascontiguousarray(triangles[:, k]) for k in range(3))
+    return np.concatenate([ways_along(*ends, size) for ends in ((a, b), (b, c), (c, a))])
+
+
+def _sides(triangles: NDArray[np.int32], size: int) -> _Sides | None:
+    """The sides of triangles of so many vertices; None where some are twice along one way."""
+    ways = np.sort(_ways(triangles, size))
+    if (ways[1:] == ways[:-1]).any():
         return None
-    start, end = np.divmod(there, size)
-    return there[~np.isin(end * size + start, there)]
+    first = np.flatnonzero((ways[1:] ^ ways[:-1]) == 1)
+    both = np.zeros(len(ways), bool)
+    both[first] = both[first + 1] = True
+    return _Sides(ways[~both], ways[both])
 
 
 def _agree(triangles: NDArray[np.int32], shell: NDArray[Any]) -> bool:
     """Whether triangles that share a vertex are of one shell."""
-    _, first, vertex = np.unique(triangles, return_index=True, return_inverse=True)
-    each = np.repeat(shell, 3)
-    return bool((each == each[first][vertex.ravel()]).all())
+    last = np.zeros(int(triangles.max(initial=-1)) + 1, shell.dtype)
+    for corner in triangles.T:
+        last[corner] = shell
+    return all(np.array_equal(last[corner], shell) for corner in triangles.T)

@@ -40,6 +40,14 @@ def edge_keys(one: NDArray[Any], two: NDArray[Any], count: int | np.int64) -> In
     return keys
 
 
+def ways_along(one: NDArray[Any], two: NDArray[Any], count: int | np.int64) -> Ints:
+    """A number for each way from one of `count` vertices to another: an even one and the next one.
+
+    Those two are the ways along one edge, and follow each other where all are sorted.
+    """
+    return edge_keys(one, two, count) * 2 + (one > two)
+
+
 def among_edges(one: NDArray[Any], two: NDArray[Any], keys: Ints, count: int | np.int64) -> Bools:
     """Which edges between two of `count` vertices have one of the keys."""
     return np.isin(edge_keys(one, two, count), keys)
@@ -103,7 +111,9 @@ def adjacent(chosen: Bools, triangles: NDArray[Any], count: int) -> Bools:
 def numbered(triangles: NDArray[Any], count: int) -> tuple[Ints, Ints]:
     """The vertices, of `count`, that triangles use, ascending; the triangles in rows of these."""
     used = vertices_of(triangles, count)
-    return np.flatnonzero(used), (np.cumsum(used) - 1)[triangles]
+    number = np.cumsum(used, dtype=np.int32)  # half as much to be read at random
+    number -= 1
+    return np.flatnonzero(used), np.take(number, triangles, mode="clip").astype(np.int64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -363,12 +373,8 @@ def _join_pieces(blocks: list[_Block], shared: Bools) -> tuple[NDArray[np.int32]
 def open_vertices(triangles: NDArray[Any], count: int) -> Bools:
     """(count,) which vertices are at edges of one triangle; no edge has more than two."""
     corners = [np.ascontiguousarray(triangles[:, k]) for k in range(3)]
-    # Sorted, the two ways along an edge follow each other: an even number and the next one.
     key = np.concatenate(
-        [
-            edge_keys(a, b, count) * 2 + (a > b)
-            for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)
-        ]
+        [ways_along(a, b, count) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
     )
     key.sort()
     first = np.flatnonzero((key[1:] ^ key[:-1]) == 1)

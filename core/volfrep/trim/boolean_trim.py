@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ..mesh.booleans import to_library
 from ..mesh.float32_repair import shortest_edge
 from ..mesh.open_shells import OpenShells, joined_shells
-from ..mesh.topology import corners_among, pieces_of, vertices_of
+from ..mesh.topology import corners_among, pieces_of, vertices_of, ways_along
 from ..mesh.triangle_mesh import TriangleMesh, compact, rows_where
 from ..process.cluster import Watch
 from ..process.pool import at_once, awaited, backend_of
@@ -442,10 +442,14 @@ def _same_vertices(points: Floats, rim: Floats, tolerance: float) -> tuple[Ints,
         the rim, -1 for none.
     """
     # Mostly both sides have the very same numbers: only where one has no fellow is it looked for.
-    _, first, cluster, often = np.unique(
+    each, first, cluster, often = np.unique(
         hash_points(points), return_index=True, return_inverse=True, return_counts=True
     )
-    cluster, row = cluster.ravel(), equal_rows(rim, points[first])
+    cluster, row = cluster.ravel(), np.full(len(rim), -1, np.int64)
+    if len(each):
+        place = np.minimum(np.searchsorted(each, hash_points(rim)), len(each) - 1)
+        same = (points[first[place]] == rim).all(axis=1)
+        row[same] = place[same]
     alone = often == 1
     alone[row[row >= 0]] = False
     if alone.any() or not np.array_equal(points[first[cluster]], points):
@@ -512,21 +516,25 @@ def _open(mesh: TriangleMesh, some: Ints, seam: Ints, rim: Ints) -> Ints:
     """
     at_seam = vertices_of(seam, len(mesh.vertices))
     at_rim = vertices_of(rim, len(mesh.vertices))
-    start = mesh.triangles[some].astype(np.int64)
-    end = np.roll(start, -1, axis=1)
-    here = at_seam[start] & at_seam[end]
-    owner = np.repeat(some, 3).reshape(-1, 3)[here]
-    start, end = start[here], end[here]
-    size = np.int64(len(mesh.vertices))
-    key = start * size + end
-    key.sort()
-    back = end * size + start
-    ahead = np.searchsorted(key, start * size + end, "right") - np.searchsorted(
-        key, start * size + end
+    triangles, size = mesh.triangles[some], np.int64(len(at_seam))
+    corners = [np.ascontiguousarray(triangles[:, k]) for k in range(3)]
+    ends = list(zip(corners, [*corners[1:], corners[0]], strict=True))
+    here = [at_seam.take(one, mode="clip") & at_seam.take(two, mode="clip") for one, two in ends]
+    way = np.concatenate(
+        [ways_along(one[at], two[at], size) for (one, two), at in zip(ends, here, strict=True)]
     )
-    behind = np.searchsorted(key, back, "right") - np.searchsorted(key, back)
-    wrong = (ahead != 1) | (behind > 1) | ((behind == 0) & ~(at_rim[start] & at_rim[end]))
-    return np.concatenate([owner[wrong], some[_alike(mesh.triangles[some], at_seam)]])
+    # Whose they are is asked of faulty ones only: numpy sorts numbers alone in a fifth of the time.
+    every = np.sort(way)
+    first = np.flatnonzero(np.diff(every >> 1, prepend=-1))
+    often = np.diff(first, append=len(every))
+    sound = (often == 2) & (every[first] != every[first + often - 1])
+    low, high = np.divmod(every[first[often == 1]] >> 1, size)
+    sound[often == 1] = at_rim[low] & at_rim[high]
+    owner = np.zeros(0, np.int64)
+    if not sound.all():
+        wrong = np.isin(way >> 1, every[first[~sound]] >> 1)
+        owner = np.concatenate([some[at] for at in here])[wrong]
+    return np.concatenate([owner, some[_alike(triangles, at_seam)]])
 
 
 def _alike(triangles: NDArray[np.int32], at_seam: Bools) -> Ints:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..lattice.assembly import facet_blocks
 from ..mesh.open_shells import ORIGIN, OpenShells
 from ..mesh.quality import Inspection, Quality, inspect
-from ..mesh.topology import corners_among, pieces_of
+from ..mesh.topology import corners_among, pieces_of, ways_along
 from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..spatial.resolve_crossings import Looks
 from ..spatial.winding import Lines, Windings, mesh_blocks
@@ -285,18 +285,24 @@ class TrimmedSurface:
         here = (start >= 0) & (end >= 0)
         start, end, owner = start[here], end[here], np.repeat(some, 3)[here]
         size = np.int64(len(self._inner.rim))
-        key = start * size + end
-        is_open = ~np.isin(key, end * size + start)
-        key, owner = key[is_open], owner[is_open]
-        order = np.argsort(key)
+        way = ways_along(start, end, size)
+        # Open edges are run along one way only. Numpy sorts numbers alone in a fifth of the time.
+        every = np.sort(way)
+        begins = np.flatnonzero(np.diff(every >> 1, prepend=-1))
+        often = np.diff(begins, append=len(every))
+        is_open = np.repeat(every[begins] == every[begins + often - 1], often)
         # The octants' edges run the other way.
         first, second = np.searchsorted(self._inner.rim, self._inner.pieces.rim).T
-        wanted = second * size + first
+        wanted = ways_along(second, first, size)
         place = np.argsort(wanted)
-        if not np.array_equal(key[order], wanted[place]):
+        if not np.array_equal(every[is_open], wanted[place]):
             return None
         result = np.empty(len(wanted), np.int64)
-        result[place] = owner[order]
+        if len(wanted):
+            row = np.searchsorted(wanted, way, sorter=place)
+            at = place[np.minimum(row, len(wanted) - 1)]
+            met = wanted[at] == way
+            result[at[met]] = owner[met]
         return result
 
 

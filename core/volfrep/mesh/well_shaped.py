@@ -5,7 +5,9 @@ What a Boolean leaves along a cut is mended where it is bad and nowhere else, by
 are each safe by themselves: a short edge is collapsed and an edge is flipped where the surface
 stays within a tolerance, and a long edge is split, which changes no surface at all. Splitting
 the longest edge of a bad facet, where it is the longest of both its facets, is the refinement of
-M. C. Rivara, Int. J. Numer. Meth. Engng. 40, 1997.
+M. C. Rivara, Int. J. Numer. Meth. Engng. 40, 1997. On a convex surface each flip takes volume, as
+many as they are: points that splits made move outwards in the end, until what changed has its
+volume again.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ from ..util.ragged import rows_of, spread
 from ..util.types import Bools, Floats, Ints
 from . import remesh
 from .closest import closest_on_triangles
+from .patch_volumes import with_volumes
 from .patches import FaultFinder, without_faults
 from .topology import (
     adjacent,
@@ -44,6 +47,8 @@ LOSS = 0.8
 TURN = 0.7
 #: But those lower than this part of the tolerance have no side that would matter.
 THIN = 0.2
+#: Facets that turn by less than this (cosine) at a point lie in one plane, but for rounding.
+STRAIGHT = 1.0 - 1e-7
 #: Facets that meet at an edge at an angle below this, degrees, lie on one another.
 OPPOSITE = 0.3
 #: Facets on the way to a longest edge that is the longest of both its facets.
@@ -138,7 +143,8 @@ def mend_bad_facets(
     """The closed mesh without needles and caps, as far as that goes.
 
     What a round of moves changes is a patch here and there: those that have a fault are taken back,
-    and less is moved about them from then on. So the mesh has no faults that it did not have.
+    and less is moved about them from then on. So the mesh has no faults that it did not have. No
+    point that it had is moved.
 
     Args:
         mesh: closed, every edge of two facets.
@@ -165,6 +171,10 @@ def mend_bad_facets(
         tolerance = tolerance.with_less(points[places])
         triangles = np.concatenate([rest, changed])
         bad = np.concatenate([np.zeros(len(rest), bool), is_bad(points[changed])])
+    free = _may_move(points, triangles) & (np.arange(len(points)) >= len(mesh.vertices))
+    points = with_volumes(
+        points, mesh.triangles.astype(np.int64), triangles, free, tolerance.at, find_faults
+    )
     return compact(TriangleMesh(points, triangles.astype(np.int32)))
 
 
@@ -326,14 +336,29 @@ def _rules(
     return rules, max(longest, 1e-300)
 
 
+def _may_move(points: Floats, triangles: Ints) -> Bools:
+    """(n,) whether a surface is bent at a point, but not sharp: it is on no plane and no crease."""
+    corner, turn = _turns(triangles, remesh.unit_normals(points[triangles]), len(points))
+    result = np.zeros(len(points), bool)
+    result[corner[turn < STRAIGHT]] = True
+    result[corner[turn < TURN]] = False
+    return result
+
+
 def _are_sharp(triangles: Ints, normal: Floats, count: int) -> Bools:
     """(n,) whether facets about a point look farther than `TURN` from where they look together."""
+    corner, turn = _turns(triangles, normal, count)
+    result = np.zeros(count, bool)
+    result[corner[turn < TURN]] = True
+    return result
+
+
+def _turns(triangles: Ints, normal: Floats, count: int) -> tuple[Ints, Floats]:
+    """(3 m,) each: corners of facets, cosines between where these look and all do about it."""
     corner, facing = triangles.ravel(), np.repeat(normal, 3, axis=0)
     total = np.stack([np.bincount(corner, facing[:, k], count) for k in range(3)], axis=1)
     mean = total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
-    result = np.zeros(count, bool)
-    result[corner[np.einsum("ij,ij->i", facing, mean[corner]) < TURN]] = True
-    return result
+    return corner, np.einsum("ij,ij->i", facing, mean[corner])
 
 
 def _nearest(places: Floats, facets: Floats, owner: Ints) -> Floats:

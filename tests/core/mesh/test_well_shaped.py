@@ -123,6 +123,40 @@ def test_a_sharp_edge_stays_sharp():
     assert is_bad(corners(better)).sum() < 0.05 * is_bad(corners(mesh)).sum()
 
 
+def test_a_tube_of_long_strips_keeps_its_volume_and_its_ends():
+    """Each flip cuts its outside off by up to 0.02 mm, or fills its bore: it lost 0.24 %."""
+    mesh = tube(radii=(2.0, 5.0), length=6.0, count=128)
+    better = mend_bad_facets(mesh, Tolerance(TOLERANCE), 0.1, no_fault)
+    assert measure(better).watertight
+    assert is_bad(corners(better)).sum() < 0.1 * is_bad(corners(mesh)).sum()
+    assert better.volume == pytest.approx(mesh.volume, rel=1e-6)
+    for one, other in ((mesh, better), (better, mesh)):
+        places = np.concatenate([one.vertices, corners(one).mean(axis=1)])
+        assert closest_points(other, places)[1].max() < 2.0 * TOLERANCE
+    # Its ends stay in their planes.
+    ends = np.abs(remesh.unit_normals(corners(better))[:, 2]) > 0.99
+    assert set(corners(better)[ends][:, :, 2].ravel()) == {0.0, 6.0}
+
+
+def tube(radii, length, count):
+    """A closed tube along z, whose walls are strips as long as it is."""
+    turn = 2.0 * np.pi * np.arange(count) / count
+    round_it = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    rings = [np.c_[r * round_it, np.full(count, z)] for r in radii for z in (0.0, length)]
+    this, after = np.arange(count), np.roll(np.arange(count), -1)
+    # Inner low, inner high, outer low, outer high: each wall from a ring to the next outwards.
+    walls = [(1, 0), (2, 3), (0, 2), (3, 1)]
+    facets = [
+        side
+        for low, high in walls
+        for side in (
+            np.stack([this + low * count, after + low * count, after + high * count], axis=1),
+            np.stack([this + low * count, after + high * count, this + high * count], axis=1),
+        )
+    ]
+    return TriangleMesh(np.concatenate(rings), np.concatenate(facets).astype(np.int32))
+
+
 @pytest.mark.parametrize("height", [-0.2, -0.02])
 def test_a_facet_turned_over_its_neighbour_is_put_right(height):
     """The corner beyond an edge was brought over the facet on the other side, in its plane."""

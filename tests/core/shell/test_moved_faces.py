@@ -7,12 +7,17 @@ import pytest
 import trimesh
 
 import samples
-from volfrep.design.skins.plane_faces import few_plane_faces, find_plane_faces
+from volfrep.design.skins.plane_faces import (
+    PLANE,
+    few_plane_faces,
+    find_plane_faces,
+    least_faces,
+)
 from volfrep.mesh.booleans import as_mesh
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.shell.moved_faces import move_faces
 from volfrep.shell.offset import find_cavity
-from volfrep.spatial.proximity import closest_points
+from volfrep.spatial.proximity import closest_points, neighbours
 from volfrep.util.progress import Monitor
 from walls import wall_errors
 
@@ -106,6 +111,19 @@ def test_of_a_round_solid_it_is_known_early_that_it_has_many_faces():
     assert few_plane_faces(ball, 0.1) is None
     assert find_plane_faces(ball, 0.1, most=100) is None
     assert len(find_plane_faces(ball, 0.1, most=20_000).normal) > 1000
+    assert least_faces(ball, neighbours(ball), PLANE * 0.1) > 1000
+
+
+@pytest.mark.parametrize("thickness", [0.1, 3.0, 50.0])
+def test_no_more_faces_are_foretold_than_there_are(thickness):
+    ball, some = samples.sphere(20.0, 3), np.random.default_rng(3)
+    rough = TriangleMesh(
+        ball.vertices + some.normal(0.0, 0.02, ball.vertices.shape), ball.triangles
+    )
+    for solid in (ball, rough, samples.bracket(17.0), samples.box((20.0, 30.0, 5.0))):
+        faces = find_plane_faces(solid, thickness, 10**6)
+        least = least_faces(solid, neighbours(solid), PLANE * thickness)
+        assert 1 <= least <= len(faces.normal)
 
 
 def test_an_ordinary_skin_is_found_by_cubes():

@@ -13,9 +13,10 @@ from functools import lru_cache
 import numpy as np
 
 from ...mesh.remesh import facet_normals, heights
+from ...mesh.topology import pieces_of
 from ...mesh.triangle_mesh import TriangleMesh
 from ...spatial.proximity import neighbours
-from ...util.linalg import along, normalize
+from ...util.linalg import along, lengths, normalize
 from ...util.types import Floats, Ints
 from .. import costs
 
@@ -28,6 +29,9 @@ MOST_TRIANGLES = 20_000
 #: higher than that are turned from it by less than this (cosine).
 PLANE = 1e-3
 ALONG_PLANE = 0.9
+#: Sums of slopes (sines) up to this tell where faces end: the angles are no more than 1.1 times as
+#: large.
+STEEP = 0.5
 #: Edges bent by less than this, radians, count as flat: their sectors only close gaps.
 BEND = 1e-3
 #: A part of a ball takes as long as so many prisms.
@@ -75,6 +79,8 @@ def find_plane_faces(
     4
     """
     across = neighbours(solid)
+    if least_faces(solid, across, PLANE * thickness) > most:
+        return None
     face, normal = _grow_faces(solid, across, PLANE * thickness, most)
     if len(normal) > most:
         return None
@@ -124,6 +130,22 @@ def _grow_faces(solid: TriangleMesh, across: Ints, reach: float, most: int) -> t
         if len(seeds) > most:
             break
     return face, normal[seeds]
+
+
+def least_faces(solid: TriangleMesh, across: Ints, reach: float) -> int:
+    """So many faces there are at least: one in each patch between edges that divide faces.
+
+    The planes of two triangles whose corners lie within the reach of one plane, mm, have no larger
+    angle between them than both have towards that.
+    """
+    normal, high = facet_normals(solid), heights(np.stack(solid.corners(), axis=1))
+    triangle, side = np.nonzero(across > np.arange(len(across))[:, None])
+    other = across[triangle, side]
+    slope = 2.0 * reach / np.maximum(high, 1e-300)
+    slopes = slope[triangle] + slope[other]
+    bent = lengths(np.cross(normal[triangle], normal[other]))
+    divides = (slopes < STEEP) & (bent > 1.1 * slopes)
+    return pieces_of(triangle[~divides], other[~divides], len(across))[0]
 
 
 @lru_cache(maxsize=4)

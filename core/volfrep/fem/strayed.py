@@ -7,8 +7,9 @@ import numpy as np
 
 from ..mesh.topology import edge_keys
 from ..mesh.triangle_mesh import TriangleMesh
-from ..spatial.proximity import closest_points
+from ..spatial.proximity import NearestTriangles
 from ..util.types import Floats
+from .facet_grading import side_lengths
 
 
 def farthest_apart(one: TriangleMesh, other: TriangleMesh) -> float:
@@ -30,6 +31,7 @@ def farthest_apart(one: TriangleMesh, other: TriangleMesh) -> float:
         alone = np.setdiff1d(own[asked], own[1 - asked])
         ends = np.divmod(np.setdiff1d(edges[asked], edges[1 - asked]), count)
         middles: Floats = 0.5 * (places[ends[0]] + places[ends[1]])
-        away = closest_points(at, np.concatenate([places[alone], middles]))[1]
-        result = max(result, float(away.max(initial=0.0)))
+        spacing = float(np.median(side_lengths(at.vertices[at.triangles])))
+        surface = NearestTriangles(at, spacing)
+        result = surface.farthest(np.concatenate([places[alone], middles]), result)
     return result

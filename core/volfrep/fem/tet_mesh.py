@@ -39,8 +39,8 @@ from .stuffed_mesh import FACES, bodies_of, face_pairs, signed_volumes, stuffed_
 MAX_TRIANGLES = 200_000
 #: The tetrahedra's volume may differ from the mesh's by this fraction.
 VOLUME_TOLERANCE = 1e-6
-#: Mending is told where it changes the volume by more than this fraction: beside the thin lip of a
-#: wing small moves take much.
+#: Mending is told where it changes the volume by more than this fraction. It makes up for what it
+#: takes where points may move.
 VOLUME_WARNED = 2e-3
 #: Nodes are on a wall within this part of its box's diagonal: what single precision keeps.
 SURFACE_TOLERANCE = 1e-6
@@ -150,7 +150,7 @@ class TetrahedralMesh:
         if abs(self.grown) > VOLUME_WARNED:
             warnings.append(
                 f"The tetrahedra's volume differs by {self.grown:+.2%} from the mesh's: its "
-                "needles were mended, which takes from thin lips. A finer deviation takes less."
+                "needles were mended, and what that changed could not be made up for everywhere."
             )
         if not self.improved:
             warnings.append(

@@ -75,6 +75,6 @@ def _told(
         warnings = (
             *warnings,
             f"The tetrahedra's surface is up to {away} from the mesh's, which is more than the "
-            f"deviation of {deviation:.3g} mm: a finer deviation keeps it nearer.",
+            f"deviation of {deviation:.3g} mm: smaller facets keep it nearer.",
         )
     return warnings, (("surface", f"within {away} of the mesh's, its needles mended"),)

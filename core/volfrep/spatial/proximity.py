@@ -31,6 +31,8 @@ from ..util.types import Floats, Ints
 #: Points, or pairs of a point and a triangle, that one vectorised step takes at a time.
 POINTS_PER_STEP = 50_000
 PAIRS_PER_STEP = 2_000_000
+#: So many points are asked at a time for the farthest, beginning with those that may be.
+FARTHEST_PER_STEP = 2000
 #: So many points are told by one cube at first whether they are near at all.
 POINTS_PER_CUBE = 32
 #: Points that one thread looks for at a time.
@@ -140,6 +142,30 @@ class NearestTriangles:
             else:
                 closest[part], triangle[part] = found
         return closest, np.linalg.norm(points - closest, axis=1), triangle
+
+    def farthest(self, points: Floats, least: float = 0.0) -> float:
+        """The exact distance of the farthest of the points, mm, or `least` if that is more.
+
+        Nearly all points are nearer than that to the facet of a sample: these are not looked into.
+
+        Args:
+            points: (n, 3) float64, mm.
+            least: mm.
+
+        Raises:
+            VolfrepError: the mesh is not sampled.
+        """
+        reach = self._reach(points)
+        if reach is None:
+            raise VolfrepError("The farthest point is found by samples: give their spacing.")
+        far = np.sqrt(reach)
+        order = np.argsort(-far, kind="stable")
+        for start in range(0, len(points), FARTHEST_PER_STEP):
+            part = order[start : start + FARTHEST_PER_STEP]
+            if far[part[0]] <= least:
+                break
+            least = max(least, float(self.closest(points[part])[1].max()))
+        return least
 
     def are_nearer(self, points: Floats, reach: Floats) -> NDArray[np.bool_]:
         """As the function of this name of the mesh."""

@@ -8,6 +8,7 @@ from volfrep.mesh.closest import closest_on_triangles
 from volfrep.mesh.triangle_mesh import empty_mesh
 from volfrep.spatial.proximity import (
     POINTS_PER_WALK,
+    NearestTriangles,
     are_nearer,
     closest_points,
     index_surface,
@@ -35,6 +36,14 @@ def test_exact_distances_agree_with_trimesh(part):
     np.testing.assert_allclose(closest_on_triangles(corners, points)[0], closest, atol=1e-12)
     reach = random.choice([0.1, 3.0, 12.0], len(points))
     np.testing.assert_array_equal(are_nearer(part, points, reach), expected < reach)
+    # The farthest of all and of some.
+    for spacing in (1.0, 30.0):
+        surface = NearestTriangles(part, spacing)
+        for some in (points, points[:200]):
+            far = distance[: len(some)].max()
+            assert surface.farthest(some) == pytest.approx(far, abs=1e-9)
+            assert surface.farthest(some, far + 1.0) == far + 1.0
+            assert surface.farthest(some[:0], 2.0) == 2.0
 
 
 @pytest.mark.slow
@@ -124,8 +133,27 @@ def test_neighbours_share_the_edge():
     assert (across != np.arange(len(t))[:, None]).all()
 
 
+def test_the_farthest_of_many_points_is_found_though_few_are_looked_into(monkeypatch):
+    ball = samples.sphere(5.0, 2)
+    points = np.random.default_rng(2).normal(size=(9000, 3))
+    points *= (5.0 + np.arange(9000) / 9000.0)[:, None] / np.linalg.norm(points, axis=1)[:, None]
+    surface, asked, closest = NearestTriangles(ball, 1.0), [], NearestTriangles.closest
+
+    def count(self, places):
+        asked.append(len(places))
+        return closest(self, places)
+
+    monkeypatch.setattr(NearestTriangles, "closest", count)
+    assert surface.farthest(points) == closest_points(ball, points)[1].max()
+    assert asked.pop() == 9000
+    assert asked[0] == 2000
+    assert sum(asked) < 5000
+
+
 def test_what_has_no_distance_is_refused():
     with pytest.raises(VolfrepError, match="empty mesh"):
         closest_points(empty_mesh(), np.zeros((1, 3)))
     with pytest.raises(VolfrepError, match="thicker shell"):
         index_surface(samples.box(), 1e-4)
+    with pytest.raises(VolfrepError, match="give their spacing"):
+        NearestTriangles(samples.box()).farthest(np.zeros((1, 3)))

@@ -22,7 +22,7 @@ from ..grid.node_frames import NodeFrames, shortest
 from ..octants.octant import Octant, OctantKey, frames
 from ..octants.sdf import Field, join, spheres, struts
 from ..util.errors import VolfrepError
-from ..util.linalg import normalize
+from ..util.linalg import lengths, normalize
 from ..util.numbers import place_text
 from ..util.progress import Monitor
 from ..util.threads import in_threads
@@ -139,7 +139,8 @@ def deform(
         excess = max(excess, left / (0.5 * grid.cell_size))
         done += len(number)
         monitor.tick(done / total)
-    return Deformed(vertices if in_part else mapping.to_part(vertices), excess)
+    there = in_part or mapping.is_identity
+    return Deformed(vertices if there else mapping.to_part(vertices), excess)
 
 
 @dataclass(frozen=True, eq=False)
@@ -341,7 +342,7 @@ class _Struts:
 def _struts(near: Ints, far: Ints, nodes: NodeFrames) -> _Struts:
     start = nodes.points[near]
     axis = shortest(nodes.points[far] - start, nodes.period)
-    length = np.linalg.norm(axis, axis=1)
+    length = lengths(axis)
     axis /= length[:, None]
     radius, other = nodes.radius[near], nodes.radius[far]
     middle = length * radius / (radius + other)
@@ -368,7 +369,7 @@ def _crease(
 def _across(vectors: Floats, axis: Floats) -> Floats:
     """Unit vectors along what stands across the axes."""
     off = vectors - np.einsum("ij,ij->i", vectors, axis)[:, None] * axis
-    result: Floats = off / np.linalg.norm(off, axis=1)[:, None]
+    result: Floats = off / lengths(off)[:, None]
     return result
 
 
@@ -383,7 +384,7 @@ def _on_spheres(
         turned = np.einsum("nij,nkj->nki", nodes.rotation[near], nodes.were[near])
         radial = np.einsum("nij,nj->ni", nodes.rotation[near], radial)
         radial += np.einsum("nk,nkj->nj", weight, directions - turned)
-        radial /= np.linalg.norm(radial, axis=1)[:, None]
+        radial /= lengths(radial)[:, None]
     rows = np.arange(len(near))
     # Struts cover the sphere up to this angle from their axes: keep clear of it.
     cover = np.arcsin(np.minimum(nodes.radius[near] / nodes.joint[near], 1.0))

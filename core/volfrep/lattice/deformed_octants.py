@@ -19,7 +19,7 @@ import numpy as np
 from ..mesh import remesh
 from ..mesh.precision import decimal_step, merging
 from ..mesh.topology import edge_keys
-from ..mesh.triangle_mesh import TriangleMesh
+from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..octants.octant import Octant
 from ..spatial.resolve_crossings import STICKS_OUT, find_folds
 from ..util.linalg import along
@@ -237,8 +237,8 @@ def _turning_back(layout: Layout, points: Floats, bent: Bools, monitor: Monitor)
     each = [len(layout.octants[key].triangles) for key in layout.grid.keys]
     for part in _slabs(about, each, layout):
         triangles = facets(layout, Monitor(), part)
-        used, local = np.unique(triangles, return_inverse=True)
-        mesh = TriangleMesh(points[used], local.reshape(-1, 3).astype(np.int32))
+        low, high = int(triangles.min()), int(triangles.max())  # numbered layer by layer
+        mesh = compact(TriangleMesh(points[low : high + 1], triangles - np.int32(low)))
         turned = find_folds(mesh, True)
         if turned.any():
             owner = _owners(layout, part, each)[turned]

@@ -27,6 +27,7 @@ from ..lattice.deform import Deformed
 from ..lattice.deformed_octants import look_at_deformed
 from ..lattice.octant_kinds import DeformedOctants
 from ..lattice.placed_octants import Placed
+from ..mesh.precision import decimal_step
 from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..octants.octant import Octant, OctantKey, wrapped
 from ..spatial.self_intersection import meeting_boxes
@@ -99,8 +100,7 @@ class PlacedLattice(Placed):
             near = near | np.roll(near, 1, axis) | np.roll(near, -1, axis)
         where = (near & present)[1:-1, 1:-1, 1:-1]
         octants = [self.octants[key] for key in self.layout.grid.keys]
-        farthest = np.float32(np.abs(self.points).max(initial=1.0))
-        safe = SAFE_STEPS * float(np.spacing(farthest))
+        safe = SAFE_STEPS * decimal_step(self.points)
         return look_at_deformed(
             self.layout, octants, self.points, where, safe, self.excess, self.monitor
         )

@@ -172,6 +172,7 @@ def look_at(
     step: float,
     alone: Callable[[Ints], Bools],
     monitor: Monitor,
+    at_wall: Bools | None = None,
 ) -> Looks:
     """Look at a part of a surface, where it turns back and crosses itself.
 
@@ -183,10 +184,11 @@ def look_at(
         step: of the decimals of a text of the whole surface, mm.
         alone: tells which of its triangles meet nothing of another part.
         monitor: asked for a cancel.
+        at_wall: as of `turning`.
     """
     at_rim = corners_among(vertices_of(rim, len(mesh.vertices)), mesh.triangles)
     open_, marks = at_rim > 0, np.where(at_rim > 1, np.uint8(0), np.uint8(JUDGED))
-    turned = turning(mesh, deformed, step)
+    turned = turning(mesh, deformed, step, at_wall)
     if not len(turned):
         return Looks(marks, step)
     marks[turned] |= TURNED
@@ -525,13 +527,15 @@ def find_folds(mesh: TriangleMesh, deformed: bool = False) -> Bools:
     return touching(vertices_of(turned, len(mesh.vertices)), mesh.triangles)
 
 
-def turning(mesh: TriangleMesh, deformed: bool, step: float) -> Ints:
+def turning(mesh: TriangleMesh, deformed: bool, step: float, at_wall: Bools | None = None) -> Ints:
     """The triangles at both sides of the edges of `find_folds`, ascending.
 
     Args:
         mesh: any mesh, mm.
         deformed: as of `folds_of`.
         step: of the decimals of a text of the whole surface, mm.
+        at_wall: (m,) bool, triangles of a wall that cuts it: what is deformed does not fold there,
+            and its edges count as those of any other lattice; None: there are none.
     """
     size = len(mesh.vertices)
     corners, columns = mesh.triangles.T, mesh.vertices.T
@@ -561,20 +565,20 @@ def turning(mesh: TriangleMesh, deformed: bool, step: float) -> Ints:
     one, two = owner[side], owner[other]
     cosine = sum(along[one] * along[two] for along in normal)
     turned = cosine < TURNS_BACK
+    bent = np.full(len(one), deformed)
+    if at_wall is not None:
+        bent &= ~(at_wall[rows[one]] | at_wall[rows[two]])
 
     def above(owner: Ints, side: Ints, apex: Ints) -> Floats:
         """How far corners lie above the planes of facets that have sides, mm."""
         beyond = mesh.vertices[apex] - mesh.vertices[start[side]]
         return np.asarray(sum(along[owner] * beyond[:, k] for k, along in enumerate(normal)))
 
-    if deformed:
-        sticks_out = above(one, side, apex[other]) < 0.0
-        turned |= (cosine < STICKS_OUT) & sticks_out
-    else:
-        room = OPEN_STEPS * step
-        turned &= (np.abs(above(one, side, apex[other])) < room) | (
-            np.abs(above(two, other, apex[side])) < room
-        )
+    beyond = above(one, side, apex[other])
+    turned |= bent & (cosine < STICKS_OUT) & (beyond < 0.0)
+    if not bent.all():
+        nearest = np.minimum(np.abs(beyond), np.abs(above(two, other, apex[side])))
+        turned &= bent | (nearest < OPEN_STEPS * step)
     found: Ints = np.unique(rows[np.concatenate([one[turned], two[turned]])])
     return found
 

@@ -172,7 +172,10 @@ def _look_at_piece(piece: Piece, group: Group, monitor: Monitor) -> Piece:
         return np.asarray(result, np.bool_)
 
     deformed = placed.points is not None
-    looks = monitor.call(lambda: look_at(mesh, piece.rim, deformed, step, alone, Monitor()))
+    at_wall = piece.on_boundary
+    looks = monitor.call(
+        lambda: look_at(mesh, piece.rim, deformed, step, alone, Monitor(), at_wall)
+    )
     # Where it is joined its vertices may move by far less than is left of them then.
     sound = np.ones(len(mesh.triangles), bool)
     sound[slivers(mesh, NEARLY * group.precision)] = False

@@ -11,10 +11,11 @@ from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
 from volfrep.io.write.stl import as_read
 from volfrep.jobs.infill import Infill
+from volfrep.mesh.precision import decimal_step
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.spatial import resolve_crossings
 from volfrep.spatial.piercing import piercing_pairs
-from volfrep.spatial.resolve_crossings import find_folds, resolve_fold_crossings
+from volfrep.spatial.resolve_crossings import find_folds, resolve_fold_crossings, turning
 from volfrep.util.progress import Monitor
 
 
@@ -46,6 +47,17 @@ def test_a_rim_that_no_rounding_closes_is_a_fold_of_what_is_deformed_only():
     open_by_far = lens(0.0, thin=0.1)
     assert not find_folds(open_by_far).any()
     assert find_folds(open_by_far, deformed=True).any()
+
+
+def test_a_wall_makes_no_fold_of_deformed_struts_where_no_rounding_closes_the_rim():
+    """Whether one of its sides or both are a wall's; a rim that rounding closes is one with it."""
+    for thin, closes in ((0.1, False), (2e-4, True)):
+        mesh = lens(0.0, thin)
+        step = decimal_step(mesh.vertices)
+        above = mesh.vertices[mesh.triangles][:, :, 2].sum(axis=1) > 0.0
+        assert len(turning(mesh, True, step, np.zeros(len(above), bool)))
+        for at_wall in (above, ~above, above | ~above):
+            assert bool(len(turning(mesh, True, step, at_wall))) == closes
 
 
 def test_a_rim_that_runs_through_itself_is_drawn_apart():

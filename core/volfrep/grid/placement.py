@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -28,6 +28,8 @@ from .strut_graph import CellGraph, Wireframe, wireframe
 #: and so do cells: where a wall lies in a plane of the cells' own, struts would touch it along
 #: lines and leave edges of four triangles. No printer or solver sees two microns in 10 mm.
 NUDGE = np.array([2.1e-4, 1.3e-4, 1.7e-4])
+#: Points are the same within this part of the solid's size, and depths of no more are kept.
+SAME_POINT, MOST_KEPT = 1e-12, 1 << 19
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +67,39 @@ class Placement:
 
 def placement_in(solid: TriangleMesh, grid: Grid, is_cut: bool, monitor: Monitor) -> Placement:
     """Where a lattice lies inside a solid, whose wall or skin cuts it or not."""
-    depth = partial(depth_below, solid, monitor)
+    depth = DepthsBelow(solid, monitor)
     return Placement(grid.size, part_map(grid, solid.bounds), solid.bounds, depth, is_cut)
+
+
+@dataclass(eq=False)
+class DepthsBelow:
+    """`depth_below`, which remembers: a lattice's nodes are among those of one without end.
+
+    Attributes:
+        solid: the part.
+        monitor: for cancel.
+    """
+
+    solid: TriangleMesh
+    monitor: Monitor
+    _known: tuple[Any, Floats] | None = None
+
+    def __call__(self, points: Floats) -> Floats:
+        """(n,) depth of (n, 3) points, mm; of those that were asked for last as it was then."""
+        from scipy.spatial import cKDTree  # slow to import
+
+        new, result = np.ones(len(points), bool), np.empty(len(points))
+        if self._known is not None and len(points) <= MOST_KEPT:
+            tree, depths = self._known
+            same = SAME_POINT * float(np.ptp(self.solid.bounds, axis=0).max())
+            row = tree.query(points, distance_upper_bound=same)[1]
+            new = row == len(depths)
+            result[~new] = depths[row[~new]]
+        if new.any():
+            result[new] = depth_below(self.solid, self.monitor, points[new])
+            if len(points) <= MOST_KEPT:
+                self._known = cKDTree(points), result
+        return result
 
 
 def depth_below(solid: TriangleMesh, monitor: Monitor, points: Floats) -> Floats:

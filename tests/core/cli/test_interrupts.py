@@ -90,7 +90,7 @@ def test_a_reader_that_leaves_ends_no_job(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("module", "turned"),
     [("argparse", False), ("volfrep.cli.command", False), ("numpy", False), ("numpy", True),
-     ("scipy.sparse", True)],
+     ("skimage.measure", True)],
 )  # fmt: skip
 def test_ctrl_c_during_an_import_is_an_interruption(tmp_path: Path, module, turned) -> None:
     code = IMPORTING.replace("MODULE", repr(module)).replace("TURNED", str(turned))

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..design.spec import LatticeSpec
 from ..design.spec_parts import Skin
+from ..mesh.topology import corners_among
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import PointCubes, SurfaceIndex, closest_points, index_surface
 from ..util.threads import threads
@@ -55,18 +56,13 @@ def kinds_of_triangles(mesh: TriangleMesh, solid: TriangleMesh, spec: LatticeSpe
     beyond, thinnest = _beyond_skin(surface, depths, solid, spec.skin)
     corners = mesh.triangles
     kinds = np.full(len(corners), LATTICE, np.uint8)
-    kinds[_all_corners(beyond <= 0.0, corners)] = WALL
+    kinds[corners_among(beyond <= 0.0, corners) == 3] = WALL
     most = OUTSIDE_DEPTH * thinnest
-    outermost = np.flatnonzero(_all_corners(depths.below(surface, most) <= most, corners))
+    outer = depths.below(surface, most) <= most
+    outermost = np.flatnonzero(corners_among(outer, corners) == 3)
     # Where struts end in an open face, triangles reach from their ends into the skin's rim.
     kinds[outermost[beyond[corners[outermost]].mean(axis=1) <= 0.0]] = OUTSIDE
     return kinds
-
-
-def _all_corners(chosen: NDArray[np.bool_], corners: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """(t,) whether all corners, (t, 3), of a triangle are chosen ones."""
-    first, second, third = (chosen[corners[:, k]] for k in range(3))
-    return np.asarray(first & second & third)
 
 
 def _beyond_skin(

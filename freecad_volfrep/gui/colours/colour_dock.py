@@ -189,8 +189,7 @@ class ColourDock(ObjectDock):
             self._quantity.blockSignals(True)
             self._quantity.setCurrentIndex(row)
             self._quantity.blockSignals(False)
-        ends = self._colours.range
-        self._range.setEnabled(ends is not None)
+        self._range.setEnabled(self._colours.range is not None)
         self._range.setVisible(not self._colours.names)
         why = self._colours.why
         self._range.setToolTip(why)

@@ -360,11 +360,12 @@ class _Places:
     @property
     def mesh(self) -> TriangleMesh:
         """The whole mesh as it is now; the same one if nothing has moved."""
-        vertices = self._whole.vertices
-        if np.array_equal(vertices[self._used], self._vertices):
+        before = self._whole.vertices
+        moved = np.flatnonzero((before[self._used] != self._vertices).any(axis=1))
+        if not len(moved):
             return self._whole
-        vertices = vertices.copy()
-        vertices[self._used] = self._vertices
+        rows, places = self._used[moved], self._vertices[moved]
+        vertices = self._monitor.backend.replaced(before, rows, places)
         return TriangleMesh(vertices, self._whole.triangles)
 
     @property

@@ -212,7 +212,7 @@ def thinned(
         fresh = vertices_of(repair.piece[repair.new], len(mesh.vertices))
         beside = np.flatnonzero(touching(fresh, mesh.triangles) & repair.stays(mesh))
         mended = MendedSurface(surface, repair, beside)
-        changed = mended.applied()
+        changed = mended.applied(backend=monitor.backend)
         if not (mended.is_joined_as_before or changed.is_joined):
             continue
         new = np.pad(repair.new, (len(changed.mesh.triangles) - len(repair.new), 0))

@@ -125,11 +125,9 @@ class TrimmedSurface:
         fresh[place[shared]] = False
         row = np.cumsum(fresh) - 1 + len(self.mesh.vertices)
         row[place[shared]] = self._rim_rows[shared]
-        vertices = self.mesh.vertices, more.vertices[fresh]
-        triangles = self.mesh.triangles, row.astype(np.int32)[more.triangles]
         mesh = TriangleMesh(
-            backend.gathered(vertices, (sum(map(len, vertices)), 3), np.float64),
-            backend.gathered(triangles, (sum(map(len, triangles)), 3), np.int32),
+            backend.extended(self.mesh.vertices, more.vertices[fresh]),
+            backend.extended(self.mesh.triangles, row.astype(np.int32)[more.triangles]),
         )
         rest = inner.where & ~where
         looks = self.looks and self.looks.padded(0, len(more.triangles))

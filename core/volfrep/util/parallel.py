@@ -3,13 +3,15 @@
 
 Large arrays that all of the calls need lie in files for other processes, which map them: each is
 sent a path, and what was written a moment ago is still in memory. Those that are made for many such
-calls lie in files from the start (`ParallelBackend.gathered`), and are not copied for any.
+calls lie in files from the start (`ParallelBackend.gathered`), are not copied for any, and grow
+there.
 """
 
 from __future__ import annotations
 
 import mmap
 import pickle
+import shutil
 import tempfile
 import weakref
 from collections.abc import Callable, Iterable, Iterator
@@ -17,7 +19,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Literal, Protocol, TypeVar
 
 from .threads import in_threads
 
@@ -43,16 +45,27 @@ class LocalArray:
 
 @dataclass(frozen=True)
 class MappedArray:
-    """An array in a file that processes map into their memory."""
+    """An array in a file that processes map into their memory.
+
+    Attributes:
+        path: of the file, which may hold more after it.
+        dtype: as numpy names it.
+        shape: of the array.
+        order: in which the file has its numbers.
+    """
 
     path: Path
+    dtype: str
+    shape: tuple[int, ...]
+    order: Literal["C", "F"] = "C"
 
     @property
     def array(self) -> NDArray[Any]:
         """It, read only; the file is closed once nobody has this any more."""
         import numpy as np
 
-        found: NDArray[Any] = np.asarray(np.load(self.path, mmap_mode="r"))
+        mapped = np.memmap(self.path, self.dtype, "r", 0, self.shape, self.order)
+        found: NDArray[Any] = np.asarray(mapped)
         return found
 
 
@@ -134,17 +147,11 @@ class ParallelBackend:
         if not self.uses_processes or not all(array.size for array in arrays):
             yield tuple(LocalArray(array) for array in arrays)
             return
-        import numpy as np
-
         with _folder() as folder:
-            files = []
-            for number, array in enumerate(arrays):
-                file = _file_of(array)
-                if file is None:
-                    file = folder / f"{number}.npy"
-                    np.save(file, array)
-                files.append(file)
-            yield tuple(MappedArray(file) for file in files)
+            yield tuple(
+                _in_file(array) or _saved(array, folder / str(number))
+                for number, array in enumerate(arrays)
+            )
 
     def gathered(
         self, blocks: Iterable[NDArray[Number]], shape: tuple[int, int], dtype: type[Number]
@@ -170,20 +177,53 @@ class ParallelBackend:
                 result[filled : filled + len(block)] = block
                 filled += len(block)
             return result
-        folder = tempfile.TemporaryDirectory(prefix="volfrep-", ignore_cleanup_errors=True)
-        path = Path(folder.name) / "rows.npy"
-        try:
-            with path.open("wb") as file:
-                head = {"descr": np.dtype(dtype).str, "fortran_order": False, "shape": shape}
-                np.lib.format.write_array_header_1_0(file, head)  # type: ignore[no-untyped-call]
-                for block in blocks:
-                    file.write(np.ascontiguousarray(block).data)
-            mapped = np.load(path, mmap_mode="r")
-        except BaseException:
-            folder.cleanup()
-            raise
-        weakref.finalize(mapped.base, folder.cleanup)  # what maps the file: Windows wants it gone
-        return np.asarray(mapped)
+        with _new_file() as rows, rows.path.open("wb") as file:
+            for block in blocks:
+                file.write(np.ascontiguousarray(block).data)
+        return rows.mapped(np.dtype(dtype).str, shape)
+
+    def extended(self, array: NDArray[Number], more: NDArray[Number]) -> NDArray[Number]:
+        """As `gathered`, an array and then more rows; one that lies in a file grows there.
+
+        Args:
+            array: (k, columns), which stays as it is.
+            more: (j, columns) of the same kind.
+
+        Raises:
+            OSError: as of `sharing`.
+        """
+        rows = _file_of(array) if self.uses_processes else None
+        shape = (len(array) + len(more), array.shape[1])
+        if rows is None or not rows.ends_with(array):
+            return self.gathered((array, more), shape, array.dtype.type)
+        rows.append(more)
+        return rows.mapped(array.dtype.str, shape)
+
+    def replaced(
+        self, array: NDArray[Number], rows: NDArray[Any], values: NDArray[Number]
+    ) -> NDArray[Number]:
+        """As `gathered`, an array with other numbers in a few of its rows.
+
+        Args:
+            array: (k, columns), which stays as it is.
+            rows: of it.
+            values: what is to stand there.
+
+        Raises:
+            OSError: as of `sharing`.
+        """
+        import numpy as np
+
+        whole = _file_of(array) if self.uses_processes else None
+        if whole is None or not whole.ends_with(array):
+            result = array.copy()
+            result[rows] = values
+            return result
+        # The system copies a file in half the time that memory takes, whose pages it clears first.
+        with _new_file() as copy:
+            shutil.copyfile(whole.path, copy.path)
+            np.memmap(copy.path, array.dtype, "r+", 0, array.shape)[rows] = values
+        return copy.mapped(array.dtype.str, array.shape)
 
     @contextmanager
     def sharing_value(self, value: T) -> Iterator[SharedValue[T]]:
@@ -208,14 +248,85 @@ class ParallelBackend:
             yield MappedValue(path, rest, tuple(spans))
 
 
-def _file_of(array: NDArray[Any]) -> Path | None:
-    """Where all of an array lies in a file of `gathered`; None where it does not."""
+class _RowFile:
+    """A file of rows, which arrays map from its beginning on; it goes with the last of them."""
+
+    def __init__(self) -> None:
+        self._folder = tempfile.TemporaryDirectory(prefix="volfrep-", ignore_cleanup_errors=True)
+        self.path = Path(self._folder.name) / "rows"
+        self._maps = 0
+
+    def mapped(self, dtype: str, shape: tuple[int, ...]) -> NDArray[Any]:
+        """Its first rows, read only."""
+        import numpy as np
+
+        found = np.memmap(self.path, dtype, "r", 0, shape)
+        self._maps += 1
+        _row_files[str(self.path)] = self
+        weakref.finalize(found.base, self._left)  # what maps the file: Windows wants it gone
+        return np.asarray(found)
+
+    def ends_with(self, array: NDArray[Any]) -> bool:
+        """Whether an array that maps it maps all of it."""
+        return self.path.stat().st_size == array.nbytes
+
+    def append(self, rows: NDArray[Any]) -> None:
+        """More rows at its end; arrays that map it stay as they are."""
+        import numpy as np
+
+        with self.path.open("ab") as file:
+            file.write(np.ascontiguousarray(rows).data)
+
+    def remove(self) -> None:
+        """The file goes."""
+        self._folder.cleanup()
+
+    def _left(self) -> None:
+        self._maps -= 1
+        if not self._maps:
+            self.remove()
+
+
+#: The files of rows that arrays map, by their paths.
+_row_files: weakref.WeakValueDictionary[str, _RowFile] = weakref.WeakValueDictionary()
+
+
+@contextmanager
+def _new_file() -> Iterator[_RowFile]:
+    """A file of rows that are written now; where that fails it goes at once."""
+    rows = _RowFile()
+    try:
+        yield rows
+    except BaseException:
+        rows.remove()
+        raise
+
+
+def _file_of(array: NDArray[Any]) -> _RowFile | None:
+    """Where an array of `gathered` lies, with all of its rows; None where it does not."""
     import numpy as np
 
     whole = array.base
     if not isinstance(whole, np.memmap) or whole.filename is None:
         return None
-    return Path(whole.filename) if array.__array_interface__ == whole.__array_interface__ else None
+    is_whole = array.__array_interface__ == whole.__array_interface__
+    return _row_files.get(str(whole.filename)) if is_whole else None
+
+
+def _in_file(array: NDArray[Any]) -> MappedArray | None:
+    """An array where it lies in a file of rows; None where it does not."""
+    rows = _file_of(array)
+    return None if rows is None else MappedArray(rows.path, array.dtype.str, array.shape)
+
+
+def _saved(array: NDArray[Any], path: Path) -> MappedArray:
+    """An array in a new file."""
+    import numpy as np
+
+    turned = array.flags.f_contiguous and not array.flags.c_contiguous
+    with path.open("wb") as file:
+        file.write(np.ascontiguousarray(array.T if turned else array).data)
+    return MappedArray(path, array.dtype.str, array.shape, "F" if turned else "C")
 
 
 @contextmanager

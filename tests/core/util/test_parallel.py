@@ -61,6 +61,47 @@ def test_the_file_of_an_array_goes_with_it() -> None:
     assert not path.parent.exists()
 
 
+@pytest.mark.parametrize("backend", [ParallelBackend(), Processes()])
+def test_an_array_that_grows_stays_as_it_was(backend: ParallelBackend) -> None:
+    found = backend.gathered(iter(BLOCKS), (5, 3), np.float64)
+    longer = backend.extended(found, -BLOCKS[0])
+    other = backend.extended(found, -BLOCKS[1])  # once more from the same
+    longest = backend.extended(longer, BLOCKS[1])
+    del longer
+    wanted = np.concatenate([ROWS, -BLOCKS[0], BLOCKS[1]])
+    with backend.sharing(found, other, longest) as shared:
+        for array in (found, shared[0].array):
+            assert np.array_equal(array, ROWS)
+        for array in (other, shared[1].array):
+            assert np.array_equal(array, np.concatenate([ROWS, -BLOCKS[1]]))
+        for array in (longest, shared[2].array):
+            assert np.array_equal(array, wanted)
+        if backend.uses_processes:  # it grew where it was; from there on it had grown already
+            assert path_of(shared[0]) == path_of(shared[2]) != path_of(shared[1])
+
+
+@pytest.mark.parametrize("backend", [ParallelBackend(), Processes()])
+def test_rows_of_an_array_change_in_a_copy_of_its_file(backend: ParallelBackend) -> None:
+    found = backend.gathered(iter(BLOCKS), (5, 3), np.float64)
+    changed = backend.replaced(found, np.array([1, 4]), -BLOCKS[0])
+    wanted = ROWS.copy()
+    wanted[[1, 4]] = -BLOCKS[0]
+    assert np.array_equal(found, ROWS)
+    with backend.sharing(found, changed) as (first, second):
+        assert np.array_equal(second.array, wanted)
+        if backend.uses_processes:
+            assert path_of(first) != path_of(second)
+    del found
+    assert np.array_equal(changed, wanted)
+
+
+def test_an_array_of_columns_is_shared_in_its_order() -> None:
+    with Processes().sharing(ROWS.T, ROWS[:, ::-1]) as (columns, turned):
+        assert np.array_equal(columns.array, ROWS.T)
+        assert columns.array.flags.f_contiguous
+        assert np.array_equal(turned.array, ROWS[:, ::-1])
+
+
 def test_no_file_is_left_where_rows_do_not_come(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -17,17 +17,16 @@ from functools import partial
 import numpy as np
 
 from ..mesh import remesh
-from ..mesh.precision import decimal_step, merging
+from ..mesh.precision import decimal_step, merging, near_others
 from ..mesh.topology import edge_keys
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..octants.octant import Octant
 from ..spatial.resolve_crossings import STICKS_OUT, find_folds
-from ..util.linalg import along
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
 from .assembly import CHUNK_VERTICES, Layout, facets, numbers
-from .octant_kinds import GENERIC, DeformedOctants, Measured, OctantKind, look_at
+from .octant_kinds import DeformedOctants, Measured, OctantKind, look_at
 
 #: Vertices of octants that are looked at at a time: they should stay in the processor's cache.
 BLOCK_VERTICES = 1 << 14
@@ -93,7 +92,7 @@ def _merging(layout: Layout, points: Floats, excess: float, monitor: Monitor) ->
 
     def in_part(rows: tuple[int, int]) -> Ints:
         own = points[rows[0] : rows[1]]
-        near = _close(own, 2.0 * step)
+        near = near_others(own, 2.0 * step)
         result: Ints = near[merging(own[near], step)] + np.int64(rows[0])
         return result
 
@@ -103,18 +102,6 @@ def _merging(layout: Layout, points: Floats, excess: float, monitor: Monitor) ->
         found.append(rows)
     result: Ints = np.unique(np.concatenate(found))
     return result
-
-
-def _close(points: Floats, reach: float) -> Ints:
-    """Points that may lie within so many mm of others along every axis, and some more."""
-    place = along(points, GENERIC)
-    order = np.argsort(place)
-    place = place[order]
-    near = np.diff(place) <= reach * np.abs(GENERIC).sum()
-    chosen = np.zeros(len(points), bool)
-    chosen[order[:-1][near]] = True
-    chosen[order[1:][near]] = True
-    return np.flatnonzero(chosen)
 
 
 def _measure(

@@ -18,6 +18,13 @@ from .triangle_mesh import TriangleMesh, corners_at
 BLOCK_ROWS = 1 << 16
 #: Numbers of many points are sorted in so many shares, on all threads.
 KEY_SHARES = 4
+#: Cubes in which points are near each other are so many times as wide as what near is, so that few
+#: points lie at their faces; they are taken so many points at a time, which stay in the cache.
+CUBE, CUBE_ROWS = 1024.0, 1 << 14
+#: Odd numbers that mix the places of cubes along x, y and z into one number.
+MIXERS = (0x1E3779B97F4A7C15, 0x42B2AE3D27D4EB4F, 0x165667B19E3779F9)
+#: Bits of that number, from the lowest, that two rounds tell cubes apart by.
+LOWEST_BITS = (40, 8)
 
 
 def single_precision(mesh: TriangleMesh, path: str | os.PathLike[str]) -> NDArray[np.float32]:
@@ -95,6 +102,44 @@ def merging(
     backend = backend or ParallelBackend()
     twins = _twins(vertices, None, backend)
     return twins if len(twins) else _twins(vertices, step, backend)
+
+
+def near_others(points: NDArray[np.float64], reach: float) -> Ints:
+    """Points that may lie within so many mm of another one along every axis, and a few more.
+
+    Such two are in one cube of a grid, or both at its faces. Cubes are told apart by few bits of a
+    number each, and what shares these with others by others: nothing is sorted.
+
+    Args:
+        points: (n, 3), mm; fewer than 2^31.
+        reach: mm.
+    """
+    code, chosen = np.empty(len(points), np.int64), np.empty(len(points), bool)
+    per_mm = 1.0 / (CUBE * reach)
+    for start in range(0, len(points), CUBE_ROWS):
+        part = points[start : start + CUBE_ROWS] * per_mm
+        cube = np.floor(part)
+        part -= cube
+        part -= 0.5
+        at_face = (np.abs(part, out=part) > 0.5 - 1.0 / CUBE).T
+        chosen[start : start + CUBE_ROWS] = at_face[0] | at_face[1] | at_face[2]
+        x, y, z = (along * odd for along, odd in zip(cube.astype(np.int64).T, MIXERS, strict=True))
+        code[start : start + CUBE_ROWS] = x + y + z
+    rows = np.arange(len(points), dtype=np.int32)
+    for lowest in LOWEST_BITS:
+        count = len(rows)
+        # From four to eight places for each, of which few have two points then.
+        slots = 1 << (8 * count | 1).bit_length() - 1
+        slot = (code >> lowest) & (slots - 1)
+        number, last = np.arange(count, dtype=np.int32), np.empty(slots, np.int32)
+        last[slot] = number  # of several the last one
+        held = last[slot]
+        others = np.flatnonzero(held != number)
+        shared = np.zeros(count, bool)
+        shared[others] = shared[held[others]] = True
+        rows, code = rows[shared], code[shared]
+    chosen[rows] = True
+    return np.flatnonzero(chosen)
 
 
 def _read(numbers: NDArray[np.float64], step: float | None) -> NDArray[np.float32]:

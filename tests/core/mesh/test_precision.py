@@ -3,8 +3,9 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
-from volfrep.mesh.precision import merging
+from volfrep.mesh.precision import CUBE, merging, near_others
 from volfrep.process.pool import backend_of, processes
 from volfrep.util.parallel import ParallelBackend
 from volfrep.util.threads import use_threads
@@ -34,3 +35,22 @@ def test_twins_among_many_points_are_found_on_any_threads(count: int) -> None:
 def test_workers_find_them_too() -> None:
     with processes(2) as executor:
         assert found_twins(backend_of(executor)) == TWINS
+
+
+def test_all_points_near_others_are_found_and_few_more() -> None:
+    rng, reach = np.random.default_rng(3), 1e-5
+    points = rng.uniform(-50.0, 50.0, (200_000, 3))
+    # Beside faces of cubes, too, where two that are near lie in different ones.
+    points[:1000] = np.round(points[:1000] / (CUBE * reach)) * (CUBE * reach)
+    points[:4000] += rng.uniform(-0.5, 0.5, (4000, 3)) * reach
+    points[100_000:104_000] = points[:4000] + rng.uniform(-0.9, 0.9, (4000, 3)) * reach
+    pairs = cKDTree(points).query_pairs(reach, p=np.inf, output_type="ndarray")
+    assert len(pairs) >= 4000
+    found = near_others(points, reach)
+    assert np.isin(pairs, found).all()
+    assert len(found) < 8000 + 0.05 * len(points)
+
+
+@pytest.mark.parametrize("count", [0, 1])
+def test_too_few_points_to_be_near_others(count: int) -> None:
+    assert not len(near_others(np.full((count, 3), 0.3), 1e-5))

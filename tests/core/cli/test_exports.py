@@ -105,13 +105,15 @@ def test_the_print_report(tmp_path: Path, part: Path, capsys: pytest.CaptureFixt
 def test_the_build_direction(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     shares = {}
     for direction in ("0,0,1", "-1,0,0", "1,1e0,1"):
-        options = ["--print-report", "FFF", "--build-direction", direction]
+        options = ["--print-report", "LPBF", "--build-direction", direction]
         assert block(tmp_path / "out.stl", *options) == 0
         found = re.search(r"below 45 degrees +([\d.]+) %", capsys.readouterr().out)
         assert found
         shares[direction] = float(found[1])
     # 6 of 20 struts stand along z, 8 along x, and along a diagonal all lie at 35 degrees.
     assert shares == {"0,0,1": 70.0, "-1,0,0": 60.0, "1,1e0,1": 100.0}
+    assert block(tmp_path / "out.stl", "--print-report", "FFF") == 0  # it bridges 10 mm
+    assert re.search(r"below 45 degrees +0\.0 %", capsys.readouterr().out)
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,7 @@ from ..mesh.well_shaped import Tolerance, angles_of, mend_bad_facets, names
 from ..process.child import Limits, OverLimit
 from ..process.programs import run_program
 from ..spatial.piercing import meeting_triangles, piercing_pairs
-from ..spatial.proximity import closest_points, sample_triangles
+from ..spatial.proximity import are_nearer, closest_points, sample_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
@@ -124,6 +124,8 @@ class TetrahedralMesh:
         lattice: the edge of the lattice that they are cut from, mm; 0 where Gmsh made them.
         away: how far places of the mesh's surface are from theirs then, or places of theirs from
             the mesh's, mm: the farthest of both, and all but one in a hundred.
+        strayed: the same of mended ones, the farthest at vertices and middles of edges, mm.
+        before: the mesh that was mended; None where nothing was.
     """
 
     nodes: Floats
@@ -134,6 +136,7 @@ class TetrahedralMesh:
     lattice: float = 0.0
     away: tuple[float, float] = (0.0, 0.0)
     strayed: float = 0.0
+    before: TriangleMesh | None = None
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -250,7 +253,8 @@ def filled_by_gmsh(mesh: TriangleMesh, monitor: Monitor | None = None) -> Tetrah
     if moved:
         outside = TriangleMesh(points, face_pairs(corners)[1].astype(np.int32))
         strayed = monitor.call(lambda: farthest_apart(mesh, outside))
-    return TetrahedralMesh(nodes, elements, moved, grown, improved, strayed=strayed)
+    before = mesh if moved else None
+    return TetrahedralMesh(nodes, elements, moved, grown, improved, strayed=strayed, before=before)
 
 
 def _filled_from_lattice(
@@ -436,18 +440,43 @@ def mend_surface(
 
 
 def nodes_on(filled: TetrahedralMesh, surface: TriangleMesh) -> Ints:
-    """Rows of the nodes that lie on a surface, within rounding and what mending moved."""
+    """Rows of the nodes that lie on a surface, or on what of it was mended."""
     low, high = surface.bounds
-    near = max(SURFACE_TOLERANCE * float(np.linalg.norm(high - low)), filled.moved)
+    near = SURFACE_TOLERANCE * float(np.linalg.norm(high - low))
     # Nodes inside may be as near as that.
-    rows = outer_nodes(filled)
-    on = np.zeros(len(filled.nodes), bool)
-    on[rows] = closest_points(surface, filled.nodes[rows])[1] < near
+    faces = _outer_faces(filled)
+
+    def are_within(reach: float) -> Bools:
+        rows = np.unique(faces)
+        result = np.zeros(len(filled.nodes), bool)
+        result[rows] = are_nearer(surface, filled.nodes[rows], np.full(len(rows), reach))
+        return result
+
+    on = are_within(near)
     if filled.lattice:
         # Its corners lie on the mesh; the middles of edges bridge what it rounds.
-        faces = _outer_faces(filled)
         on[faces[on[faces[:, :3]].all(axis=1)]] = True
+    elif filled.before is not None:
+        # Mending takes nodes off the surface. Struts have some as near: faces tell them apart.
+        asked = faces[are_within(filled.strayed + near)[faces].all(axis=1)]
+        asked = asked[~on[asked].all(axis=1)]
+        on[asked[_come_from(filled.before, surface, near, filled.nodes[asked[:, :3]])]] = True
     return np.flatnonzero(on)
+
+
+def _come_from(before: TriangleMesh, surface: TriangleMesh, near: float, faces: Floats) -> Bools:
+    """Whether faces (k, 3, 3) of a mended mesh are nearest to what of it lay on a surface."""
+    corners = before.vertices[before.triangles]
+    # Where all three corners lie on it the facet may still bridge a hollow.
+    count = len(before.vertices)
+    at_corners = are_nearer(surface, before.vertices, np.full(count, near))
+    lies = at_corners[before.triangles].all(axis=1)
+    lies[lies] = closest_points(surface, corners[lies].mean(axis=1))[1] < near
+    own, others = (TriangleMesh(before.vertices, before.triangles[some]) for some in (lies, ~lies))
+    middles = faces.mean(axis=1)
+    if not len(own.triangles) or not len(others.triangles) or not len(faces):
+        return np.full(len(faces), bool(len(own.triangles)))
+    return ~are_nearer(others, middles, closest_points(own, middles)[1])
 
 
 def outer_nodes(filled: TetrahedralMesh) -> Ints:

@@ -6,7 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.spatial import cKDTree
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import ConvexHull, Delaunay, cKDTree
 
 import samples
 from bench.static_step import StaticStep
@@ -193,6 +195,32 @@ def test_a_bar_from_a_lattice_is_stretched_and_knows_its_outside(monkeypatch, tm
     assert moved.mean() == pytest.approx(320 * 40 / 210_000 / area, rel=0.05)
 
 
+def test_a_node_that_mending_took_off_the_surface_is_on_it_and_a_struts_beside_it_is_not():
+    """A bar's end was raised by 0.02 mm; a node of its side is 0.01 mm below that end."""
+    bar = samples.box((10.0, 10.0, 10.0))
+    top, right = np.array([0.0, 0.0, 5.02]), np.array([5.01, 0.0, 4.99])
+    points = np.vstack([bar.vertices - bar.vertices.mean(axis=0), right, top])
+    own = points[:-1]
+    hull = ConvexHull(own)
+    sides = np.einsum(
+        "ij,ij->i",
+        hull.equations[:, :3],
+        np.cross(*np.diff(own[hull.simplices], axis=1).swapaxes(0, 1)),
+    )
+    facets = np.where(sides[:, None] > 0, hull.simplices, hull.simplices[:, ::-1])
+    before = TriangleMesh(own, facets.astype(np.int32))
+    nodes, elements = tet_mesh._second_order(points, Delaunay(points).simplices.astype(np.int64))
+    filled = TetrahedralMesh(nodes, elements, moved=0.01, strayed=0.03, before=before)
+    part = samples.box((30.0, 30.0, 10.0))
+    part.vertices[:] -= part.vertices.mean(axis=0)
+    upper = filled.nodes[nodes_on(filled, part)]
+    upper = upper[upper[:, 2] > 0.0]
+    # Its corners, the raised node, and the middles of the eight edges between them.
+    assert len(upper) == 13
+    assert (np.linalg.norm(upper - top, axis=1) < 1e-9).any()
+    assert np.abs(upper[:, :2]).max() < 5.0 + 1e-9
+
+
 @pytest.mark.slow
 @needs_gmsh
 def test_a_part_has_its_cavity_and_knows_its_outside():
@@ -203,7 +231,15 @@ def test_a_part_has_its_cavity_and_knows_its_outside():
     filled = tetrahedra(mesh)
     assert 0.0 < filled.moved < 0.1
     assert filled.volumes().sum() == pytest.approx(mesh.volume, rel=1e-4)
-    outside = filled.nodes[nodes_on(filled, solid)]
+    on = nodes_on(filled, solid)
+    # Of the surface's pieces, its outside and that of its cavity, all nodes of one.
+    faces = tet_mesh._outer_faces(filled)
+    ends = faces[:, [0, 1, 2, 0, 1, 2]].ravel(), faces[:, [1, 2, 3, 4, 5, 5]].ravel()
+    links = coo_array((np.ones(len(ends[0])), ends), shape=(len(filled.nodes),) * 2)
+    piece = connected_components(links, directed=False)[1]
+    outer = np.isin(piece, piece[np.argmax(filled.nodes[:, 0])])
+    assert np.array_equal(on, np.flatnonzero(outer))
+    outside = filled.nodes[on]
     low, high = solid.bounds
     assert (np.minimum(outside - low, high - outside).min(axis=1) < 1e-4).all()
     # Its twelve triangles are divided, since the cavity's are small: its corners stay.

@@ -110,20 +110,19 @@ class _Depths:
     def __init__(self, points: Floats) -> None:
         self.points = points
         self._cubes = PointCubes(points)
+        self._known: tuple[SurfaceIndex, float, Floats] | None = None
 
     def below(self, surface: SurfaceIndex, most: float) -> Floats:
         """(n,) distances to a surface, mm; infinite for most points that are farther off."""
+        if self._known is not None and self._known[0] is surface and most <= self._known[1]:
+            return self._known[2]
         reach = most + 0.75 * surface.spacing
-        rows = self._cubes.points_in(
-            _are_within(surface, self._cubes.middles, reach + self._cubes.half_diagonal)
+        far = reach + self._cubes.half_diagonal
+        near, _ = surface.tree.query(
+            self._cubes.middles, distance_upper_bound=far, workers=threads()
         )
-        rows = rows[_are_within(surface, self.points[rows], reach)]
+        rows = self._cubes.points_in(np.isfinite(near))
         depth = np.full(len(self.points), np.inf)
-        depth[rows] = surface.near(self.points[rows])[1]
+        depth[rows] = surface.distances_within(self.points[rows], reach)
+        self._known = surface, most, depth
         return depth
-
-
-def _are_within(surface: SurfaceIndex, points: Floats, reach: float) -> NDArray[np.bool_]:
-    """(n,) whether a sample of the surface is within reach of (n, 3) points."""
-    found = surface.tree.query(points, distance_upper_bound=reach, workers=threads())[0]
-    return np.asarray(np.isfinite(found))

@@ -377,6 +377,13 @@ class SurfaceIndex:
         closest, distance, _, _ = self._nearest(points)
         return closest, distance
 
+    def distances_within(self, points: Floats, reach: float) -> Floats:
+        """(n,) distances as of `near`, mm; infinite where no sample is within reach.
+
+        What lies no farther than the reach less 0.75 of the spacing is never left out.
+        """
+        return self._nearest(points, reach)[1]
+
     def below(self, points: Floats) -> NDArray[np.bool_]:
         """(n,) whether points lie below the surface, as its normal next to them tells.
 
@@ -418,8 +425,11 @@ class SurfaceIndex:
             rows, triangle, here = rows[on], triangle[on], here[on]
         return total
 
-    def _nearest(self, points: Floats) -> tuple[Floats, Floats, Ints, Ints]:
-        """Closest points, distances, their triangles, and the edges they lie on (-1: none)."""
+    def _nearest(self, points: Floats, reach: float = np.inf) -> tuple[Floats, Floats, Ints, Ints]:
+        """Closest points, distances, their triangles, and the edges they lie on (-1: none).
+
+        Where no sample is within reach distances are infinite, and the rest means nothing.
+        """
         closest, distance = np.empty((len(points), 3)), np.empty(len(points))
         triangle, on_edge = np.empty((2, len(points)), np.int64)
         if not len(points):
@@ -429,16 +439,20 @@ class SurfaceIndex:
 
         def part(start: int) -> None:
             rows = order[start : start + POINTS_PER_WALK]
-            walked = self._walk(points[rows])
+            sampled, nearest = self.tree.query(points[rows], distance_upper_bound=reach)
+            if reach < np.inf:
+                met = np.isfinite(sampled)
+                distance[rows[~met]] = np.inf
+                rows, nearest = rows[met], nearest[met]
+            walked = self._walk(points[rows], nearest)
             closest[rows], distance[rows], triangle[rows], on_edge[rows] = walked
 
         for _ in in_threads(part, range(0, len(points), POINTS_PER_WALK)):
             pass
         return closest, distance, triangle, on_edge
 
-    def _walk(self, points: Floats) -> tuple[Floats, Floats, Ints, Ints]:
-        """As `_nearest`, on one thread."""
-        nearest = self.tree.query(points)[1]
+    def _walk(self, points: Floats, nearest: Ints) -> tuple[Floats, Floats, Ints, Ints]:
+        """As `_nearest` from each point's nearest sample, on one thread."""
         triangle = self.triangle_of_sample[nearest].astype(np.int64)
         closest, on_edge = closest_on_triangles(self.corners[triangle], points)
         squared = squares(points - closest)

@@ -114,6 +114,19 @@ def test_the_fast_distance_of_a_point_depends_on_no_other_and_on_no_threads():
     assert index.near(points[:0])[0].shape == (0, 3)
 
 
+def test_distances_within_a_reach_are_those_of_any_reach():
+    part = samples.box((20, 12, 8))
+    index = index_surface(part, 0.8)
+    points = np.random.default_rng(5).uniform(-16, 16, (9_000, 3))
+    distance, reach = index.near(points)[1], 3.0
+    within = index.distances_within(points, reach)
+    found = np.isfinite(within)
+    assert (within[found] == distance[found]).all()
+    assert found[distance <= reach - 0.75 * index.spacing].all()
+    assert not found[distance > reach].any()
+    assert 0 < found.sum() < len(points)
+
+
 def test_samples_cover_slivers_too():
     part = samples.plate()
     index = index_surface(part, 1.0)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..util.linalg import normalize
+from ..util.linalg import cross_columns, dot_columns, normalize
 from ..util.types import Floats, Ints
 from .topology import edge_keys, pieces_of
 from .triangle_mesh import TriangleMesh
@@ -46,8 +46,8 @@ def shade(mesh: TriangleMesh, crease_angle: float = CREASE_ANGLE) -> Shaded:
     count, corner = pieces_of(one, two, t.size)
     vertex = np.empty(count, np.int64)
     vertex[corner] = t.ravel()
-    weight = np.repeat(area, 3, axis=0)
-    total = np.stack([np.bincount(corner, weight[:, k], count) for k in range(3)], axis=1)
+    weight = (np.repeat(column, 3) for column in area)
+    total = np.stack([np.bincount(corner, each, count) for each in weight], axis=1)
     normals = normalize(total)
     return Shaded(
         mesh.vertices[vertex].astype(np.float32),
@@ -81,18 +81,21 @@ def _pairs(mesh: TriangleMesh) -> Ints:
     return np.stack([order[same], order[same + 1]], axis=1)
 
 
-def _doubled_areas(mesh: TriangleMesh) -> Floats:
-    """(t, 3) normals as long as the triangles are large, twice."""
-    a, b, c = mesh.corners()
-    return np.cross(b - a, c - a)
+def _doubled_areas(mesh: TriangleMesh) -> list[Floats]:
+    """Three of (t,), x, y and z of normals as long as the triangles are large, twice."""
+    columns = [np.ascontiguousarray(column) for column in mesh.vertices.T]
+    a, b, c = (np.ascontiguousarray(corner) for corner in mesh.triangles.T)
+    first = [column.take(a) for column in columns]
+    sides = ([x.take(k) - start for x, start in zip(columns, first, strict=True)] for k in (b, c))
+    return cross_columns(*sides)
 
 
-def _cosines(area: Floats, pair: Ints) -> Floats:
+def _cosines(area: list[Floats], pair: Ints) -> Floats:
     """(p,) of the angles between the two triangles of each pair of half edges."""
-    one, two = area[pair[:, 0] // 3], area[pair[:, 1] // 3]
-    length = np.linalg.norm(one, axis=1) * np.linalg.norm(two, axis=1)
+    one, two = ([column.take(side // 3) for column in area] for side in pair.T)
+    length = np.sqrt(dot_columns(one, one)) * np.sqrt(dot_columns(two, two))
     # A needle has no normal: nothing is sharp there.
-    return np.where(length > 0, (one * two).sum(axis=1) / np.maximum(length, 1e-300), 1.0)
+    return np.where(length > 0, dot_columns(one, two) / np.maximum(length, 1e-300), 1.0)
 
 
 def _corners_across(triangles: NDArray[np.int32], pair: Ints) -> tuple[Ints, Ints]:

@@ -65,8 +65,18 @@ def _cluster(mesh: TriangleMesh, step: float) -> TriangleMesh:
         return np.take_along_axis(t, (t.argmin(axis=1)[:, None] + np.arange(3)) % 3, axis=1)
 
     starts = range(0, len(mesh.triangles), TRIANGLES_PER_STEP)
-    t = np.unique(np.concatenate(list(in_threads(block, starts))), axis=0)
+    t = _once_each(np.concatenate(list(in_threads(block, starts))), len(vertices))
     return compact(TriangleMesh(vertices, t.astype(np.int32)))
+
+
+def _once_each(triangles: Ints, count: int) -> Ints:
+    """The different ones of triangles of `count` vertices, in order.
+
+    By numbers, which numpy sorts in a quarter of the time that it takes for rows.
+    """
+    sides, number = np.unique(triangles[:, 0] * count + triangles[:, 1], return_inverse=True)
+    rows, last = np.divmod(np.unique(number.ravel() * count + triangles[:, 2]), count)
+    return np.stack([*np.divmod(sides[rows], count), last], axis=1)
 
 
 def _cubes_of(points: Floats, step: float) -> tuple[Ints, Ints]:

@@ -21,7 +21,8 @@ from ..mesh.triangle_mesh import TriangleMesh
 from ..reports.facet_roles import OUTSIDE, kinds_of_triangles
 from ..reports.report import Report
 from ..reports.result import Result
-from ..util.cache import StageCache
+from ..util.cache import Kept, StageCache
+from ..util.content import content_of
 from ..util.progress import ProgressCallback
 from .kinds import lattice_kind
 from .targets import fill_with_target
@@ -113,7 +114,9 @@ def filled_mesh(
         VolfrepError: as `check_solid` and `fill`.
         Cancelled: the callback said so.
     """
-    checked = check_solid(solid, name)
+    cache = cache or StageCache()
+    came = Kept(solid, content_of(solid.vertices, solid.triangles))
+    checked = cache.run("checked", check_solid, came, name).value
     result = fill(checked, spec, progress=progress, cache=cache, executor=executor)
     mesh = result.mesh
     kinds = kinds_of_triangles(mesh, checked, spec)
@@ -148,6 +151,10 @@ def forecast_and_fill(
         VolfrepError: as `filled_mesh`.
         Cancelled: the callback said so.
     """
+    cache = cache or StageCache()
+    came = Kept(solid, content_of(solid.vertices, solid.triangles))
+    # The very mesh of the call before where this is the same: depths and angles are known of that.
+    solid = cache.run("solid", _itself, came).value
     forecast = forecast_fill(solid, lattice_kind(spec).roughly_solved(solid))
     if most is not None and forecast.triangles > most:
         return forecast, None
@@ -156,6 +163,11 @@ def forecast_and_fill(
             solid, name, spec, show=show, progress=progress, cache=cache, executor=executor
         )
     return forecast, filled
+
+
+def _itself(solid: TriangleMesh) -> TriangleMesh:
+    """The mesh, as a stage."""
+    return solid
 
 
 def _display_mesh(

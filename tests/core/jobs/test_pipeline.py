@@ -13,8 +13,9 @@ from volfrep import Cancelled, LatticeSpec, StageCache, VolfrepError
 from volfrep.design.cells import LIBRARY, PAPERS
 from volfrep.grid.placement import NUDGE
 from volfrep.io.write.stl import as_read
+from volfrep.jobs import pipeline
 from volfrep.jobs.blocks import block
-from volfrep.jobs.pipeline import fill
+from volfrep.jobs.pipeline import fill, forecast_and_fill
 from volfrep.mesh import quality
 
 SMALL = LatticeSpec(cell="CVC", cell_size=8, strut_radius=0.8, shell=2)
@@ -123,6 +124,39 @@ def test_a_block_reports_what_it_is():
         "volume_mm3", "relative_density", "mass_g", "watertight", "stages", "peak_memory_mb",
     }  # fmt: skip
     assert wanted <= data.keys()
+
+
+def test_a_part_made_again_is_the_part_made_afresh(monkeypatch):
+    looked_at, check = [], pipeline.check_solid
+    monkeypatch.setattr(
+        pipeline, "check_solid", lambda mesh, name: looked_at.append(name) or check(mesh, name)
+    )
+    cache = StageCache()
+
+    def made(kept, size, **changes):
+        """From a mesh of its own, as it comes from another process."""
+        spec = replace(SMALL, **changes)
+        return forecast_and_fill(samples.box(size), "box", spec, show=(10**6, 10**5), cache=kept)
+
+    large, small = (20.0, 14.0, 14.0), (18.0, 14.0, 14.0)
+    for size, changes, is_new in (
+        (large, {}, True),
+        (large, {"strut_radius": 0.9}, False),
+        (large, {"strut_radius": 0.7}, False),
+        (large, {"strut_radius": 0.7, "shell": 1.5}, False),
+        (large, {"strut_radius": 0.9, "shell": 1.5, "cell_size": 7}, False),
+        (small, {"strut_radius": 0.9, "shell": 1.5, "cell_size": 7}, True),
+        (large, {}, True),
+    ):
+        looked_at.clear()
+        forecast, part = made(cache, size, **changes)
+        assert bool(looked_at) == is_new
+        expected, fresh = made(None, size, **changes)
+        assert forecast == expected
+        np.testing.assert_array_equal(part.mesh.vertices, fresh.mesh.vertices)
+        np.testing.assert_array_equal(part.mesh.triangles, fresh.mesh.triangles)
+        np.testing.assert_array_equal(part.kinds, fresh.kinds)
+        np.testing.assert_array_equal(part.shown.facets, fresh.shown.facets)
 
 
 @pytest.mark.slow

@@ -33,8 +33,9 @@ POINTS_PER_STEP = 50_000
 PAIRS_PER_STEP = 2_000_000
 #: So many points are asked at a time for the farthest, beginning with those that may be.
 FARTHEST_PER_STEP = 2000
-#: So many points are told by one cube at first whether they are near at all.
-POINTS_PER_CUBE = 32
+#: So many points are told by one cube at first whether they are near at all; a dozen times as
+#: many, as of a lattice in a part most cubes hold none.
+POINTS_PER_CUBE = 4
 #: Points that one thread looks for at a time.
 POINTS_PER_WALK = 4096
 #: How often the walk from a nearest sample to the nearest triangle may cross an edge.

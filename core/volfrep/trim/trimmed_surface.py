@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..lattice.assembly import facet_blocks
-from ..mesh.open_shells import ORIGIN, OpenShells
+from ..mesh.open_shells import ORIGIN, OpenShells, joined_shells, open_shells
 from ..mesh.quality import Inspection, Quality, inspect
-from ..mesh.topology import corners_among, pieces_of, ways_along
+from ..mesh.topology import corners_among, pieces_of, touching, vertices_of, ways_along
 from ..mesh.triangle_mesh import TriangleMesh, box_of
 from ..spatial.resolve_crossings import Looks
 from ..spatial.winding import Lines, Windings, mesh_blocks
@@ -131,8 +131,9 @@ class TrimmedSurface:
         )
         rest = inner.where & ~where
         looks = self.looks and self.looks.padded(0, len(more.triangles))
+        shells = self._shells_with(more, self._rim_rows[shared], place[shared], len(mesh.vertices))
         if not rest.any():
-            return TrimmedSurface(mesh, None, looks)
+            return TrimmedSurface(mesh, None, looks, None, shells)
         if (self._rim_rows < 0).any():
             return TrimmedSurface(mesh, InnerOctants(inner.lattice, rest), looks)
         # The others are open where all were, and where those that are in the mesh now follow.
@@ -140,7 +141,29 @@ class TrimmedSurface:
         order = np.argsort(numbers, kind="stable")
         rows = np.concatenate([row, self._rim_rows[~shared]])[order]
         known = PlacedVertices(numbers[order], mesh.vertices[rows])
-        return TrimmedSurface(mesh, InnerOctants(inner.lattice, rest, known), looks, rows)
+        return TrimmedSurface(mesh, InnerOctants(inner.lattice, rest, known), looks, rows, shells)
+
+    def _shells_with(
+        self, more: TriangleMesh, ours: Ints, theirs: Ints, vertices: int
+    ) -> OpenShells | None:
+        """The shells of the mesh with octants in it; None where they, or its own, are not known.
+
+        Args:
+            more: these octants.
+            ours: vertices of the mesh that octants have, too.
+            theirs: the same vertices, as octants number them.
+            vertices: how many there are then.
+        """
+        if self.shells is None or not self.is_joined:
+            return None
+        others = open_shells(more)
+        if others is None:
+            return None
+        at_rim = touching(vertices_of(ours, len(self.mesh.vertices)), self.mesh.triangles)
+        first = self.shells.at(ours, self.mesh, np.flatnonzero(at_rim))
+        second = others.at(theirs, more, np.arange(len(more.triangles)))
+        pair = self.shells, others
+        return joined_shells(pair, first, second + len(self.shells.volume), vertices)
 
     def met_by(self, lines: Lines) -> Windings:
         """What lines meet of it."""

@@ -15,6 +15,7 @@ from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
 from volfrep.jobs.infill import Infill
 from volfrep.lattice.assembly import numbers
+from volfrep.mesh.open_shells import open_shells
 from volfrep.mesh.quality import measure
 from volfrep.mesh.triangle_mesh import TriangleMesh
 from volfrep.output.meshes import write_mesh
@@ -52,6 +53,31 @@ def test_what_is_found_of_moved_octants_is_what_their_triangles_show():
     assert_same_quality(found, measure(surface.whole(Monitor())))
     assert found.watertight
     assert found.bodies == 1
+
+
+@pytest.mark.parametrize("layers", [slice(None), slice(0, 5), slice(4, None)])
+def test_shells_stay_known_where_octants_go_into_the_mesh(layers):
+    part, known = graded().part.surface, open_shells(graded().part.surface.mesh)
+    where = np.zeros_like(part.octants.where)
+    where[layers] = part.octants.where[layers]
+    assert where.any()
+    surface = TrimmedSurface(part.mesh, part.octants, shells=known).with_octants(where, Monitor())
+    assert surface.shells is not None
+    found = surface.inspected(Monitor()).found
+    looked_at = TrimmedSurface(surface.mesh, surface.octants).inspected(Monitor()).found
+    assert_same_quality(found.quality, looked_at.quality)
+    assert_same_quality(found.quality, part.inspected(Monitor()).found.quality)
+    same = np.unique(np.stack([found.shell, looked_at.shell]), axis=1)
+    assert same.shape[1] == found.shell.max() + 1 == looked_at.shell.max() + 1
+
+
+def test_no_shells_are_told_where_octants_do_not_fit():
+    part = graded().part.surface
+    vertices = part.mesh.vertices.copy()
+    vertices[part.rim_rows[0]] += 0.01
+    apart = TriangleMesh(vertices, part.mesh.triangles)
+    surface = TrimmedSurface(apart, part.octants, shells=open_shells(apart))
+    assert surface.with_octants(part.octants.where, Monitor()).shells is None
 
 
 @pytest.mark.costly

@@ -272,4 +272,7 @@ def vertices_of(
         if len(place) and len(layout.octants[key].vertices)
     }
     moved = deform(layout, bindings, cell, nodes, mapping, struts.fillet, monitor)
-    return replace(moved, vertices=placement.nudged(moved.vertices))
+    if placement.is_cut:
+        for along, step in zip(moved.vertices.T, placement.nudged(np.zeros(3)), strict=True):
+            along += step  # where they are: a copy would take as much memory again
+    return moved

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,8 @@ from .octant import Octant
 
 _CORNERS = np.array(list(itertools.product((0, 2), repeat=3)))
 _WEIGHTS = np.array([9, 3, 1])
+#: Caps that are kept, six a kind of octant; they hold the octants.
+CAPS_KEPT = 96
 
 
 def with_corners(octant: Octant, half_size: float) -> Octant:
@@ -31,10 +34,12 @@ def with_corners(octant: Octant, half_size: float) -> Octant:
     )
 
 
+@lru_cache(maxsize=CAPS_KEPT)
 def cap(octant: Octant, axis: int, high: bool) -> NDArray[np.int32]:
     """(k, 3) triangles, of the vertices of an octant with corners, that close one of its faces.
 
-    They are counter-clockwise seen from outside the octant.
+    They are counter-clockwise seen from outside the octant. Groups of octants ask for the same
+    ones again and again.
     """
     place = octant.places
     side = 2 if high else 0
@@ -56,6 +61,7 @@ def cap(octant: Octant, axis: int, high: bool) -> NDArray[np.int32]:
     flat = octant.vertices[:, [first, second]]
     found = triangulate([np.ascontiguousarray(flat[loop]) for loop in loops])
     result: NDArray[np.int32] = np.concatenate(loops)[found].astype(np.int32)
+    result.setflags(write=False)
     return result
 
 

@@ -17,6 +17,8 @@ SKEW = make_cell(
     [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], [0.3, 0.6, 0.45]],
     [[0, 5], [5, 4], [5, 1], [0, 3], [2, 5], [1, 4]],
 )
+#: Of the walls of `grazed_groove`.
+GRAZED_SLOPE = np.tan(np.radians(30.0))
 
 
 def _mesh(solid: manifold3d.Manifold) -> TriangleMesh:
@@ -28,6 +30,17 @@ def _mesh(solid: manifold3d.Manifold) -> TriangleMesh:
 
 def box(size=(40.0, 30.0, 20.0), corner=(0.0, 0.0, 0.0)) -> TriangleMesh:
     return _mesh(manifold3d.Manifold.cube(size).translate(corner))
+
+
+def grazed_groove(left: float) -> TriangleMesh:
+    """A block with a groove of 60 degrees inside, and a bar across whose edge, along y, leaves so
+    many mm of the groove's corner, along z."""
+    block = manifold3d.Manifold.cube((6.0, 6.0, 10.0)).translate((-2.0, -3.0, -5.0))
+    end = 3.0 * GRAZED_SLOPE
+    groove = [(x, y, z) for x, y in ((0.0, 0.0), (3.0, end), (3.0, -end)) for z in (-4.0, 4.0)]
+    bar = [(x, y, z) for x, z in ((left, 0.0), (1.0, -1.0), (1.0, 1.0)) for y in (-2.0, 2.0)]
+    hull = manifold3d.Manifold.hull_points
+    return _mesh(block - hull(groove) + hull(bar))
 
 
 def solid_block(x, y, z):

@@ -18,6 +18,7 @@ import numpy as np
 
 from ..mesh.brep import TOLERANCE as LEAST_LENGTH
 from ..mesh.brep import FacetedBrep, faceted_brep
+from ..mesh.narrow_gaps import with_wider_gaps
 from ..mesh.remesh import normals
 from ..mesh.topology import edge_keys
 from ..mesh.triangle_mesh import TriangleMesh, compact
@@ -432,7 +433,8 @@ def mend_surface(
         faulty[rows] |= size <= LEAST_LENGTH**2
         return faulty
 
-    better = mend_bad_facets(mesh, tolerance, SHORTEST * edge, find_faults)
+    wider = with_wider_gaps(mesh, tolerance.at, SHORTEST * edge, find_faults)
+    better = mend_bad_facets(wider, tolerance, SHORTEST * edge, find_faults)
     single = without_faults(better, tolerance.usual, NEEDLE, monitor)
     if single is not better and not len(piercing_pairs(single, monitor)):
         better = single

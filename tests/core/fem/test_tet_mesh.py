@@ -31,7 +31,7 @@ from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
 from volfrep.mechanics.materials import Material
 from volfrep.mesh.brep import faceted_brep
-from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.mesh.triangle_mesh import TriangleMesh, compact, concatenate
 from volfrep.mesh.well_shaped import is_bad
 from volfrep.process.child import OverLimit
 from volfrep.spatial.self_intersection import crossing_triangles
@@ -341,6 +341,20 @@ def test_a_thin_skin_is_mended_without_a_fold_or_a_crossing():
     assert not folded_facets(better).any()
     assert not crossing_triangles(better, np.ones(len(better.triangles), bool), 0.0).any()
     assert faceted_brep(better).bodies == 1
+
+
+@needs_gmsh
+def test_along_a_tunnel_a_hair_wide_no_tetrahedra_are_flat():
+    """Between a groove's corner and a bar that grazes it."""
+    mesh = samples.grazed_groove(0.002)
+    filled = tetrahedra(mesh)
+    assert shapes(filled).min() > 0.01
+    # The walls' move is told, and the tunnel is one still: as many handles.
+    assert 0.0 < filled.strayed <= filled.moved
+    faces = tet_mesh._outer_faces(filled)[:, :3]
+    surface = compact(TriangleMesh(filled.nodes, faces.astype(np.int32)))
+    for one in (mesh, surface):
+        assert len(one.vertices) - len(one.triangles) // 2 == 2
 
 
 def test_where_all_would_cross_nothing_is_mended(monkeypatch):

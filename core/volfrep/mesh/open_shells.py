@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..util.types import Floats, Ints
 from .float32_repair import NO_REPAIR, Repair
-from .quality import Inspection, Quality, sizes
+from .quality import Inspection, Quality, present_shells, sizes
 from .topology import corners_among, edge_uses, pieces_of, touching, vertices_of, ways_along
 from .triangle_mesh import TriangleMesh
 
@@ -52,7 +52,7 @@ class OpenShells:
 
     def inspection(self, mesh: TriangleMesh, open_edges: int) -> Inspection:
         """As of `inspect`, where it is known how many edges of the mesh are open."""
-        shells = int(np.count_nonzero(np.bincount(self.shell)))
+        shells = int(np.count_nonzero(present_shells(self.shell, len(self.volume))))
         closed = not open_edges
         euler = self.vertices - (self.triangles + open_edges) // 2
         quality = Quality(

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from ..util.linalg import cross_columns, dot_columns
 from ..util.parallel import LocalArray, ParallelBackend, SharedArray
 from ..util.progress import Monitor
 from ..util.threads import in_threads
+from ..util.types import Bools
 from .topology import displaced_vertices, edge_uses, touching
 from .triangle_mesh import TriangleMesh
 
@@ -149,6 +150,14 @@ def combine(one: Quality, two: Quality) -> Quality:
     )
     genus = one.genus + two.genus if watertight else -1
     return Quality(watertight=watertight, genus=genus, bounds=bounds, **sums)
+
+
+def present_shells(shell: NDArray[Any], count: int) -> Bools:
+    """(count,) which shells some triangles belong to."""
+    # Some at a time: numpy makes long numbers of all that it counts.
+    starts = range(0, len(shell), BLOCK_TRIANGLES)
+    each = (np.bincount(shell[k : k + BLOCK_TRIANGLES], minlength=count) for k in starts)
+    return np.asarray(sum(each, np.zeros(count, np.int64)) > 0, np.bool_)
 
 
 def subtract_shells(

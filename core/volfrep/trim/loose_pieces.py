@@ -70,7 +70,7 @@ def clear(
     joined, repair = mended.inspected(monitor), mended.repair
     found, mesh = joined.found, mended.surface.mesh
     label, volume = found.shell, found.volume
-    used = joined.beyond | (np.bincount(label, minlength=len(volume)) > 0)
+    used = joined.beyond | joined.within
     solid, void = used & (volume > 0), used & (volume <= 0)
     tiny = used & (np.abs(volume) < smallest)
     loose = solid & (tiny | floating)
@@ -90,7 +90,7 @@ def clear(
             quality = replace(quality, bounds=left.bounds)
         return Cleared(left, quality, 0, 0, least=least)
     # What goes has to be in the mesh, with all that may lie in it.
-    alone = joined.beyond & (np.bincount(label, minlength=len(volume)) == 0)
+    alone = joined.beyond & ~joined.within
     if (joined.beyond & (loose | tiny)).any() or ((loose & ~tiny).any() and (void & alone).any()):
         whole = TrimmedSurface(mended.applied(backend=monitor.backend).whole(monitor))
         return clear(whole, smallest, monitor, floating=floating, keep=keep, bodies=bodies)

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from ..lattice.assembly import facet_blocks
 from ..mesh.open_shells import ORIGIN, OpenShells, joined_shells, open_shells
-from ..mesh.quality import Inspection, Quality, inspect
+from ..mesh.quality import Inspection, Quality, inspect, present_shells
 from ..mesh.topology import corners_among, pieces_of, touching, vertices_of, ways_along
-from ..mesh.triangle_mesh import TriangleMesh, box_of
+from ..mesh.triangle_mesh import TriangleMesh, box_of, corners_at
 from ..spatial.resolve_crossings import Looks
 from ..spatial.winding import Lines, Windings, mesh_blocks
 from ..util.parallel import ParallelBackend
@@ -38,10 +38,12 @@ class JoinedInspection:
     Attributes:
         found: of the whole; its triangles are those of the mesh.
         beyond: (shells,) bool, which shells have a share of the octants beside the mesh.
+        within: (shells,) bool, which shells have a share of the mesh.
     """
 
     found: Inspection
     beyond: Bools
+    within: Bools
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,7 +210,8 @@ class TrimmedSurface:
         else:
             found = shells.inspection(self.mesh, 0 if inner is None else len(inner.pieces.rim))
         if inner is None:
-            return JoinedInspection(found, np.zeros(len(found.volume), bool))
+            within = present_shells(found.shell, len(found.volume))
+            return JoinedInspection(found, np.zeros_like(within), within)
         if not self.is_joined:
             raise RuntimeError("the octants inside do not fit to what the wall has cut")
         pieces, cut, count = inner.pieces, found.quality, len(found.volume)
@@ -222,11 +225,13 @@ class TrimmedSurface:
         )
         each = np.concatenate([found.volume, own])
         volume = np.bincount(label, each, minlength=both).astype(np.float64)
-        shell = label[found.shell].astype(np.int32)
-        beyond, used = np.zeros(both, bool), np.zeros(both, bool)
+        shell, own_label = found.shell, label[:count].astype(np.int32)
+        beyond, within = np.zeros(both, bool), np.zeros(both, bool)
         beyond[label[count:]] = True
-        used[shell] = True
-        used |= beyond
+        within[own_label[present_shells(shell, count)]] = True
+        used = within | beyond
+        if not np.array_equal(own_label, np.arange(count)):
+            shell = own_label[shell]
         vertices = cut.vertices + inner.layout.count - len(inner.rim)
         triangles = cut.triangles + pieces.triangles
         sound = not (cut.overused_edges or cut.misoriented_edges)
@@ -245,9 +250,9 @@ class TrimmedSurface:
             genus=int(used.sum()) - (vertices - triangles // 2) // 2 if sound else -1,
             volume=float(volume.sum()),
             area=cut.area + pieces.area,
-            bounds=self.bounds,
+            bounds=box_of(np.concatenate([cut.bounds, inner.bounds])),
         )
-        return JoinedInspection(Inspection(quality, shell, volume), beyond)
+        return JoinedInspection(Inspection(quality, shell, volume), beyond, within)
 
     @property
     def rim_rows(self) -> Ints:
@@ -297,14 +302,15 @@ class TrimmedSurface:
     @cached_property
     def _rim_triangles(self) -> Ints | None:
         """The mesh's triangles at each open edge of the octants; None where any does not fit."""
-        row = np.full(len(self.mesh.vertices), -1, np.int64)
+        at_rim = vertices_of(self._rim_rows, len(self.mesh.vertices))
+        row = np.empty(len(at_rim), np.int64)  # of no meaning elsewhere, and not read
         row[self._rim_rows] = np.arange(len(self._inner.rim))
         # Twice among candidates: only triangles with two corners at the rim have an edge there.
-        some = rows_along(row >= 0, self.mesh.triangles, self.looks)
-        corners = row[self.mesh.triangles[some]]
+        some = rows_along(at_rim, self.mesh.triangles, self.looks)
+        corners = corners_at(self.mesh.triangles, some)
         start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
-        here = (start >= 0) & (end >= 0)
-        start, end, owner = start[here], end[here], np.repeat(some, 3)[here]
+        here = at_rim[start] & at_rim[end]
+        start, end, owner = row[start[here]], row[end[here]], np.repeat(some, 3)[here]
         size = np.int64(len(self._inner.rim))
         way = ways_along(start, end, size)
         # Open edges are run along one way only. Numpy sorts numbers alone in a fifth of the time.

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..util.parallel import ParallelBackend
+from ..util.parallel import ParallelBackend, SharedArray
 from ..util.ragged import rows_of
 from ..util.threads import in_threads
 from ..util.types import Bools, Ints
@@ -33,6 +32,8 @@ PASSES = 8
 FEW = 32
 #: Triangles looked at at a time.
 BLOCK_TRIANGLES = 1 << 15
+#: Rows of a mesh that another process writes at a time.
+CALL_ROWS = 1 << 19
 
 
 def shortest_edge(mesh: TriangleMesh) -> float:
@@ -134,31 +135,66 @@ class Repair:
         number -= 1
         there = in_use[self.moved]
         moved, places = number[self.moved[there]], self.places[there]
-
-        def where() -> Iterator[NDArray[np.float64]]:
-            filled = 0
-            for part in _kept_blocks(in_use, mesh.vertices):
-                first, last = np.searchsorted(moved, (filled, filled + len(part)))
-                if first < last:
-                    part = part.copy()
-                    part[moved[first:last] - filled] = places[first:last]
-                yield part
-                filled += len(part)
-
-        corners = chain(_kept_blocks(stays, mesh.triangles), [piece])
         counts = int(np.count_nonzero(in_use)), int(np.count_nonzero(stays)) + len(piece)
-        vertices = backend.gathered(where(), (counts[0], 3), np.float64)
-        triangles = backend.gathered(
-            (np.take(number, some, mode="clip") for some in corners), (counts[1], 3), np.int32
-        )
+        size = CALL_ROWS if backend.uses_processes else BLOCK_TRIANGLES
+        arrays = mesh.vertices, mesh.triangles, in_use, stays, number
+        with backend.sharing(*arrays) as (points, corners, is_used, is_kept, numbers):
+
+            def some_vertices() -> Iterator[tuple[int, tuple[Any, ...]]]:
+                filled = 0
+                for start in range(0, len(in_use), size):
+                    count = int(np.count_nonzero(in_use[start : start + size]))
+                    first, last = np.searchsorted(moved, (filled, filled + count))
+                    change = moved[first:last] - filled, places[first:last]
+                    yield count, (points, is_used, start, size, *change)
+                    filled += count
+
+            def some_triangles() -> Iterator[tuple[int, tuple[Any, ...]]]:
+                for start in range(0, len(stays), size):
+                    last = piece if start + size >= len(stays) else piece[:0]
+                    count = int(np.count_nonzero(stays[start : start + size])) + len(last)
+                    yield count, (corners, is_kept, start, size, numbers, last)
+
+            vertices = backend.made(_left_vertices, some_vertices(), (counts[0], 3), np.float64)
+            triangles = backend.made(_left_triangles, some_triangles(), (counts[1], 3), np.int32)
         return TriangleMesh(vertices, triangles), number
 
 
-def _kept_blocks(kept: Bools, rows: NDArray[Any]) -> Iterator[NDArray[Any]]:
-    """The rows that are kept, nearly all of them, some at a time."""
-    for start in range(0, len(kept), BLOCK_TRIANGLES):
-        some, part = kept[start : start + BLOCK_TRIANGLES], rows[start : start + BLOCK_TRIANGLES]
-        yield part if some.all() else rows_where(some, part)
+def _left_vertices(
+    vertices: SharedArray,
+    in_use: SharedArray,
+    start: int,
+    size: int,
+    moved: Ints,
+    places: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Those of some vertices that are in use, a few of them, by their rows then, elsewhere."""
+    part = _kept(in_use, vertices, start, size)
+    if len(moved):
+        part = part.copy()
+        part[moved] = places
+    return part
+
+
+def _left_triangles(
+    triangles: SharedArray,
+    stays: SharedArray,
+    start: int,
+    size: int,
+    number: SharedArray,
+    more: NDArray[np.int32],
+) -> NDArray[np.int32]:
+    """Those of some triangles that stay, and more, of the vertices' new numbers."""
+    rows = _kept(stays, triangles, start, size)
+    if len(more):
+        rows = np.concatenate([rows, more])
+    return np.take(number.array, rows, mode="clip")
+
+
+def _kept(kept: SharedArray, rows: SharedArray, start: int, size: int) -> NDArray[Any]:
+    """Those that are kept, nearly all of them, of some rows."""
+    some, part = kept.array[start : start + size], rows.array[start : start + size]
+    return part if some.all() else rows_where(some, part)
 
 
 _NONE = np.zeros(0, np.int64)

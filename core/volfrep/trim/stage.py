@@ -12,6 +12,7 @@ from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
 from itertools import chain
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,7 @@ from ..grid.strut_graph import Wireframe
 from ..lattice.certificate import keeps_corners
 from ..lattice.strut_masks import without_struts
 from ..mesh.booleans import as_manifold
-from ..mesh.float32_repair import BLOCK_TRIANGLES, edge_within, shortest_edge
+from ..mesh.float32_repair import BLOCK_TRIANGLES, CALL_ROWS, edge_within, shortest_edge
 from ..mesh.quality import combine, inspect
 from ..mesh.triangle_mesh import TriangleMesh
 from ..octants.octant import OctantGrid, used_kinds
@@ -32,8 +33,9 @@ from ..octants.octant_spec import OctantSpec
 from ..shell.domain import Domain
 from ..spatial.proximity import closest_points
 from ..util.errors import VolfrepError
+from ..util.parallel import LocalArray, SharedArray
 from ..util.progress import Monitor, release_memory
-from ..util.types import Bools
+from ..util.types import Bools, Floats
 from .boolean_trim import Ahead, Trimmed, cut_again, trim
 from .culling import KeptOctants, OctantRoles, cull, keep_all
 from .drains import Drained, drain
@@ -42,6 +44,8 @@ from .loose_pieces import Cleared, clear, smallest_shell
 from .placed_lattice import PlacedLattice
 from .prune import Pruned
 from .trimmed_surface import TrimmedSurface
+
+Corners = NDArray[np.int32]
 
 #: Less of a domain than this is no lattice.
 NO_LATTICE = 1e-6
@@ -215,15 +219,28 @@ def _one_after_the_other(
     first: TriangleMesh, second: TriangleMesh, monitor: Monitor
 ) -> TriangleMesh:
     """As `concatenate`, the second one mostly by far the larger, for calls of others."""
-    shift, starts = np.int32(len(first.vertices)), range(0, len(second.triangles), BLOCK_TRIANGLES)
-    others = (second.triangles[k : k + BLOCK_TRIANGLES] + shift for k in starts)
-    vertices = len(first.vertices) + len(second.vertices)
-    triangles = len(first.triangles) + len(second.triangles)
-    gathered = monitor.backend.gathered
-    return TriangleMesh(
-        gathered((first.vertices, second.vertices), (vertices, 3), np.float64),
-        gathered(chain([first.triangles], others), (triangles, 3), np.int32),
-    )
+    backend, shift = monitor.backend, np.int32(len(first.vertices))
+    size = CALL_ROWS if backend.uses_processes else BLOCK_TRIANGLES
+
+    def made(before: Floats | Corners, after: SharedArray, count: int, more: np.int32) -> Any:
+        starts = range(0, count, size)
+        calls = ((min(size, count - k), (after, k, size, more)) for k in starts)
+        ahead = [(len(before), (LocalArray(before), 0, len(before), np.int32(0)))]
+        shape = (len(before) + count, 3)
+        return backend.made(_more_by, chain(ahead, calls), shape, before.dtype.type)
+
+    with backend.sharing(second.vertices, second.triangles) as (points, corners):
+        vertices = made(first.vertices, points, len(second.vertices), np.int32(0))
+        triangles = made(first.triangles, corners, len(second.triangles), shift)
+    return TriangleMesh(vertices, triangles)
+
+
+def _more_by(
+    rows: SharedArray, start: int, size: int, shift: np.int32
+) -> NDArray[np.float64] | Corners:
+    """Some of the rows, so much more; the very same for 0."""
+    some = rows.array[start : start + size]
+    return some + shift if shift else some
 
 
 def _to_look_at(lattice: PlacedLattice, boundary: TriangleMesh) -> Bools:

@@ -11,6 +11,7 @@ from volfrep.design.grading import CellMap
 from volfrep.design.spec import LatticeSpec
 from volfrep.jobs.blocks import block
 from volfrep.jobs.pipeline import fill
+from volfrep.mesh import float32_repair
 from volfrep.mesh.float32_repair import Repair, repair_slivers
 from volfrep.mesh.precision import decimal_step
 from volfrep.mesh.quality import measure
@@ -24,6 +25,7 @@ from volfrep.trim.loose_pieces import clear
 from volfrep.trim.mended_surface import MendedSurface
 from volfrep.trim.trimmed_surface import TrimmedSurface
 from volfrep.util.errors import VolfrepError
+from volfrep.util.parallel import ParallelBackend
 from volfrep.util.progress import Monitor
 
 #: Where the wall of a sized skin grazes a strut, mm: facets there are all but lines.
@@ -262,6 +264,28 @@ def test_new_triangles_are_those_that_were_not_there():
     np.testing.assert_array_equal(mesh.triangles[~new], number[pinched.triangles[origin[~new]]])
     for row in np.flatnonzero(~new):
         assert places(mesh, [row]) == places(pinched, [origin[row]])
+
+
+@pytest.mark.parametrize("is_less", [False, True])
+def test_processes_leave_the_same_of_a_repaired_mesh(monkeypatch, is_less):
+    one = samples.sphere(20.0, 3)
+    both = concatenate(one, TriangleMesh(one.vertices + 60.0, one.triangles))
+    a, b = both.triangles[100, :2]
+    both.vertices[b] = both.vertices[a] + 3e-5
+    repair = repair_slivers(both, 1e-4)
+    goes = piece_goes = None
+    if is_less:
+        goes = np.arange(len(both.triangles)) >= len(one.triangles)
+        piece_goes = np.zeros(len(repair.piece), bool)
+    wanted, number = repair.applied(both, goes, piece_goes)
+    monkeypatch.setattr(ParallelBackend, "uses_processes", True)
+    monkeypatch.setattr(float32_repair, "CALL_ROWS", 500)
+    found, same = repair.applied(both, goes, piece_goes)
+    assert len(wanted.triangles) == len(one.triangles) * (2 - is_less) - 2
+    assert isinstance(found.triangles.base, np.memmap)
+    assert number.tobytes() == same.tobytes()
+    assert wanted.vertices.tobytes() == found.vertices.tobytes()
+    assert wanted.triangles.tobytes() == found.triangles.tobytes()
 
 
 @pytest.mark.costly

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from volfrep.util.parallel import LocalArray, MappedArray, ParallelBackend, SharedArray
 
@@ -78,6 +79,23 @@ def test_an_array_that_grows_stays_as_it_was(backend: ParallelBackend) -> None:
             assert np.array_equal(array, wanted)
         if backend.uses_processes:  # it grew where it was; from there on it had grown already
             assert path_of(shared[0]) == path_of(shared[2]) != path_of(shared[1])
+
+
+def doubled(rows: SharedArray, start: int, end: int) -> NDArray[np.float64]:
+    return 2.0 * rows.array[start:end]
+
+
+@pytest.mark.parametrize("backend", [ParallelBackend(), Processes()])
+def test_rows_that_calls_make_stand_in_the_order_of_these(backend: ParallelBackend) -> None:
+    spans = (0, 2), (2, 2), (2, 5)
+    with backend.sharing(ROWS) as (rows,):
+        calls = ((end - start, (rows, start, end)) for start, end in spans)
+        found = backend.made(doubled, calls, (5, 3), np.float64)
+    assert np.array_equal(found, 2.0 * ROWS)
+    with backend.sharing(found) as (first,), backend.sharing(found) as (second,):
+        assert np.array_equal(first.array, found)
+        if backend.uses_processes:
+            assert path_of(first) == path_of(second)
 
 
 @pytest.mark.parametrize("backend", [ParallelBackend(), Processes()])

@@ -84,7 +84,10 @@ class Repair:
     @property
     def gone(self) -> Ints:
         """The triangles that are not there any more, or elsewhere."""
-        return np.setdiff1d(self.old, self.old[self.origin[~self.new]])
+        is_gone = np.ones(len(self.old), bool)
+        is_gone[self.origin[~self.new]] = False
+        result: Ints = self.old[is_gone]
+        return result
 
     def stays(self, mesh: TriangleMesh) -> Bools:
         """(m,) which triangles of the mesh stay."""

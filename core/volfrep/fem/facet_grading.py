@@ -41,7 +41,7 @@ def grade_facets(mesh: TriangleMesh) -> TriangleMesh:
     points, triangles = mesh.vertices, mesh.triangles.astype(np.int64)
     if not len(triangles):
         return mesh
-    length = side_lengths(points[triangles])
+    length = np.stack(remesh.side_lengths(points[triangles]), axis=1)
     least = USUAL * float(np.median(length))
     wanted = _WantedSize(points[triangles].mean(axis=1), length.mean(axis=1))
     for _ in range(ROUNDS):
@@ -72,15 +72,9 @@ class _WantedSize:
         return result
 
 
-def side_lengths(corners: Floats) -> Floats:
-    """(m, 3) the edges of facets (m, 3, 3), each from its corner to the next."""
-    result: Floats = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
-    return result
-
-
 def _longest_edges(points: Floats, triangles: Ints) -> tuple[Ints, Floats, Floats]:
     """Of each facet's longest edge: its name, its length, its middle."""
-    length = side_lengths(points[triangles])
+    length = np.stack(remesh.side_lengths(points[triangles]), axis=1)
     longest = length.max(axis=1)
     after = np.roll(triangles, -1, axis=1)
     name = edge_keys(triangles, after, len(points))

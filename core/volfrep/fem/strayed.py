@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..mesh.remesh import side_lengths
 from ..mesh.topology import edge_keys
 from ..mesh.triangle_mesh import TriangleMesh
 from ..spatial.proximity import NearestTriangles
 from ..util.types import Floats
-from .facet_grading import side_lengths
 
 
 def farthest_apart(one: TriangleMesh, other: TriangleMesh) -> float:

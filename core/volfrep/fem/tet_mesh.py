@@ -19,7 +19,7 @@ import numpy as np
 from ..mesh.brep import TOLERANCE as LEAST_LENGTH
 from ..mesh.brep import FacetedBrep, faceted_brep
 from ..mesh.narrow_gaps import with_wider_gaps
-from ..mesh.remesh import normals
+from ..mesh.remesh import longest_sides, normals, side_lengths
 from ..mesh.topology import edge_keys
 from ..mesh.triangle_mesh import TriangleMesh, compact
 from ..mesh.well_shaped import Tolerance, angles_of, mend_bad_facets, names
@@ -30,7 +30,7 @@ from ..spatial.proximity import are_nearer, closest_points, sample_triangles
 from ..util.errors import VolfrepError
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
-from .facet_grading import grade_facets, side_lengths
+from .facet_grading import grade_facets
 from .folds import folded_facets
 from .single_moves import without_faults
 from .strayed import farthest_apart
@@ -301,7 +301,7 @@ def _apart(one: TriangleMesh, other: TriangleMesh, spacing: float) -> tuple[floa
     ways = []
     for asked, place in ((one, other), (other, one)):
         corners = asked.vertices[asked.triangles]
-        length = side_lengths(corners).max(axis=1)
+        length = longest_sides(corners)
         middles = corners[length > 0.5 * spacing].mean(axis=1)
         inner = sample_triangles(corners[length > spacing], spacing)[0]
         places = np.concatenate([asked.vertices, middles, inner])

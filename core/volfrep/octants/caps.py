@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import replace
-from functools import lru_cache
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +15,9 @@ from .octant import Octant
 
 _CORNERS = np.array(list(itertools.product((0, 2), repeat=3)))
 _WEIGHTS = np.array([9, 3, 1])
-#: Caps that are kept, six a kind of octant; they hold the octants.
-CAPS_KEPT = 96
+#: The caps that are known of octants, by axis and side: gone with the octants, which may be views
+#: of far more memory.
+_known: WeakKeyDictionary[Octant, dict[tuple[int, bool], NDArray[np.int32]]] = WeakKeyDictionary()
 
 
 def with_corners(octant: Octant, half_size: float) -> Octant:
@@ -34,13 +35,20 @@ def with_corners(octant: Octant, half_size: float) -> Octant:
     )
 
 
-@lru_cache(maxsize=CAPS_KEPT)
 def cap(octant: Octant, axis: int, high: bool) -> NDArray[np.int32]:
     """(k, 3) triangles, of the vertices of an octant with corners, that close one of its faces.
 
     They are counter-clockwise seen from outside the octant. Groups of octants ask for the same
     ones again and again.
     """
+    known = _known.setdefault(octant, {})
+    if (axis, high) not in known:
+        known[axis, high] = _find_cap(octant, axis, high)
+        known[axis, high].setflags(write=False)
+    return known[axis, high]
+
+
+def _find_cap(octant: Octant, axis: int, high: bool) -> NDArray[np.int32]:
     place = octant.places
     side = 2 if high else 0
     on_face = place[:, axis] == side
@@ -61,7 +69,6 @@ def cap(octant: Octant, axis: int, high: bool) -> NDArray[np.int32]:
     flat = octant.vertices[:, [first, second]]
     found = triangulate([np.ascontiguousarray(flat[loop]) for loop in loops])
     result: NDArray[np.int32] = np.concatenate(loops)[found].astype(np.int32)
-    result.setflags(write=False)
     return result
 
 

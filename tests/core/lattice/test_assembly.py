@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Free-standing lattices: one closed surface, the right genus, the right volume."""
 
+import gc
+import weakref
+
 import manifold3d
 import numpy as np
 import pytest
@@ -20,7 +23,7 @@ from volfrep.lattice.assembly import (
 )
 from volfrep.mesh import quality
 from volfrep.mesh.triangle_mesh import TriangleMesh, compact
-from volfrep.octants.caps import with_corners
+from volfrep.octants.caps import cap, with_corners
 from volfrep.octants.octant import ALL_ACTIVE, OctantGrid, OctantKey, octant_grid
 from volfrep.octants.octant_mesh import mesh_octants
 from volfrep.octants.octant_spec import OctantSpec
@@ -234,3 +237,15 @@ def capped_box(cell, where, radius, facets_along):
             missing = neighbour_missing(grid, where, axis, high)
             parts.append(facets(layout, monitor, missing, (axis, high)))
     return compact(TriangleMesh(coordinates(layout, monitor), np.concatenate(parts)))
+
+
+def test_a_cap_is_known_as_long_as_its_octant():
+    key = OctantKey(0, ALL_ACTIVE)
+    octants = mesh_octants(find_cell("CVC"), OctantSpec(L, 1.0, 0.0, 8), [key], Monitor())
+    octant = with_corners(octants[key], L / 2)
+    assert cap(octant, 0, True) is cap(octant, 0, True)
+    assert not np.array_equal(cap(octant, 0, True), cap(octant, 1, True))
+    kept = weakref.ref(octant)
+    del octant
+    gc.collect()
+    assert kept() is None

@@ -53,14 +53,15 @@ class TetrahedraWriter(Writer):
         def tell(count: int) -> None:
             settings.tell(estimate_lattice_tetrahedra(count))
 
-        filled = tetrahedra(source.mesh, source.monitor, tell)
+        deviation = source.spec.deviation
+        filled = tetrahedra(source.mesh, source.monitor, tell, deviation)
         sides, outside, sets = source.sides, source.outside, {}
         if sides is not None:
             sets = side_joints(filled, sides)
         if outside is not None:
             sets["SKIN"] = nodes_on(filled, outside)
         write_tetrahedra(filled, path, settings.material, sets=sets)
-        return Written(*_told(filled, source.spec.deviation))
+        return Written(*_told(filled, deviation))
 
 
 def _told(

@@ -17,6 +17,7 @@ from volfrep.fem import tet_mesh
 from volfrep.fem.calculix import solve
 from volfrep.fem.deck import sides, write_tetrahedra
 from volfrep.fem.folds import folded_facets
+from volfrep.fem.strayed import farthest_apart
 from volfrep.fem.stuffed_mesh import signed_volumes
 from volfrep.fem.tet_mesh import (
     MAX_TRIANGLES,
@@ -282,7 +283,7 @@ def test_what_gmsh_finds_to_intersect_is_mended_less(monkeypatch):
     said = "Error : Invalid boundary mesh (facet-facet intersection), intersection (1.5,-2,3e-1)"
     filled, asked = tet_mesh._run_gmsh, []
 
-    def mend(mesh, _, places):
+    def mend(mesh, _, places, deviation):
         asked.append(places.tolist())
         return mesh, 0.01
 
@@ -355,6 +356,18 @@ def test_along_a_tunnel_a_hair_wide_no_tetrahedra_are_flat():
     surface = compact(TriangleMesh(filled.nodes, faces.astype(np.int32)))
     for one in (mesh, surface):
         assert len(one.vertices) - len(one.triangles) // 2 == 2
+
+
+def test_no_move_takes_more_than_a_third_of_the_deviation_that_is_asked_for():
+    groove = samples.grazed_groove(0.002)
+    usual = mend_surface(groove, Monitor())[1]
+    assert usual == pytest.approx(0.2, rel=1e-3)
+    for deviation, most in ((3.0, usual), (0.03, 0.01)):
+        better, moved = mend_surface(groove, Monitor(), deviation=deviation)
+        assert moved == pytest.approx(most)
+        assert farthest_apart(groove, better) <= deviation
+    # The tunnel is widened by that, and no more.
+    assert better.volume == pytest.approx(groove.volume, rel=1e-4)
 
 
 def test_where_all_would_cross_nothing_is_mended(monkeypatch):

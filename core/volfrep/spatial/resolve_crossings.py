@@ -9,21 +9,18 @@ struts that lie flat makes one on either side of each, and nearly all of them ar
 
 Parts of a surface may be looked at before they are joined (`look_at`); of the whole only the rest
 is looked at then (`Looks`).
-
-While vertices move, who may meet whom is found once, with some room (`CrossingWatch`): a look after
-a move takes only pairs of triangles that moved; what left its room is searched for anew.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.float32_repair import Repair
-from ..mesh.precision import decimal_step, rounded
+from ..mesh.precision import decimal_step
 from ..mesh.topology import (
     corners_among,
     displaced_vertices,
@@ -37,9 +34,10 @@ from ..util.linalg import cross_columns, normalize
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
-from .piercing import pairs_among, pairs_at_planes, piercing_among
+from .crossing_watch import CrossingWatch, crossing_in_files
+from .piercing import pairs_at_planes
 from .regions import in_regions
-from .self_intersection import close_pairs, near_corners
+from .self_intersection import near_corners
 
 #: Vertices of crossing triangles move by so much of the way to the middle of their neighbours, one
 #: share after the other; below 0 that far anywhere.
@@ -76,14 +74,12 @@ STICKS_OUT = -0.2
 ROUGHNESS = 1e-6
 #: Triangles whose rough normals are found at a time: they should stay in the processor's cache.
 BLOCK_TRIANGLES = 1 << 15
-#: Triangles may move by so much of the median one's size before they are searched for anew.
-ROOM = 0.15
-#: The most cells along the longest side of the grid by which triangles near others are picked.
-MOST_CELLS = 160
 #: Of a triangle it is known whether the surface turns back at its edges, all of them (where it is
 #: not, at those to known ones); it does at one of them; it crosses nothing of its part, and meets
 #: nothing of another one; it is no sliver of the precision that goes with the step.
 JUDGED, TURNED, APART, SOUND = 1, 2, 4, 8
+#: A part that is moved is rounded by so much more of a step before files do it.
+MORE_ROUNDING = 0.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,14 +106,26 @@ class Looks:
     Attributes:
         marks: (m,) uint8, for each triangle the sum of `JUDGED`, `TURNED`, `APART` and `SOUND`.
         step: of the decimals that a text resolves, for which they are apart, mm.
+        close: (k, 2) those of which it hangs on how a file rounds them whether they cross.
     """
 
     marks: NDArray[np.uint8]
     step: float
+    close: Ints = field(default_factory=lambda: np.zeros((0, 2), np.int64))
 
     def of(self, rows: Ints | Bools) -> Looks:
         """The same, of some of the triangles."""
         return Looks(self.marks[rows], self.step)
+
+    def elsewhere(self, mesh: TriangleMesh) -> Looks:
+        """The same, of a part that was moved: a file rounds it otherwise there."""
+        used = np.unique(self.close)
+        part = compact(TriangleMesh(mesh.vertices, mesh.triangles[used]))
+        crossing = crossing_in_files(part, np.searchsorted(used, self.close), self.step)
+        marks = self.marks.copy()
+        marks[used] |= APART
+        marks[used[crossing]] &= ~np.uint8(APART)
+        return Looks(marks, self.step)
 
     def padded(self, before: int, after: int) -> Looks:
         """The same, with so many triangles before and after them of which nothing is known."""
@@ -197,11 +205,14 @@ def look_at(
     near = vertices_of(mesh.triangles[touching(near, mesh.triangles)], len(near))
     rows = np.flatnonzero(touching(near, mesh.triangles) & ~open_)
     rows = rows[alone(rows)]
+    if not len(rows):
+        return Looks(marks, step)
     part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
-    crossing = _crossing(part, np.ones(len(rows), bool), monitor, step=step)
+    every, far = np.ones(len(rows), bool), (1.0 + MORE_ROUNDING) * step
+    close = pairs_at_planes(part, far, monitor, every)
     marks[rows] |= APART
-    marks[rows[crossing]] &= ~np.uint8(APART)
-    return Looks(marks, step)
+    marks[rows[crossing_in_files(part, close, step)]] &= ~np.uint8(APART)
+    return Looks(marks, step, rows[close])
 
 
 def folds_of(
@@ -451,7 +462,6 @@ def _crossing(
     moved: Bools | None = None,
     *,
     apart: Bools | None = None,
-    step: float | None = None,
 ) -> Ints:
     """(k, 2) triangles, chosen or beside such, that cross in a binary file or in one of text.
 
@@ -460,7 +470,7 @@ def _crossing(
     """
     near = vertices_of(mesh.triangles[among], len(mesh.vertices))
     rows = np.flatnonzero(touching(near, mesh.triangles))
-    step = decimal_step(mesh.vertices) if step is None else step
+    step = decimal_step(mesh.vertices)
     wanted = None if apart is None else ~apart[rows]
     if moved is not None:
         wanted = touching(moved, mesh.triangles[rows])
@@ -479,16 +489,7 @@ def _crossing(
 def _crossing_in_file(part: TriangleMesh, wanted: Bools, step: float, monitor: Monitor) -> Ints:
     """(k, 2) triangles of a mesh, one of them wanted, that cross in a file of either kind."""
     # Neither rounding moves a coordinate by more than a step: few pairs need an exact look, twice.
-    close = pairs_at_planes(part, step, monitor, wanted)
-    found = [
-        piercing_among(TriangleMesh(vertices, part.triangles), close)
-        for vertices in (_single(part.vertices), _single(rounded(part.vertices, step)))
-    ]
-    return np.concatenate(found)
-
-
-def _single(vertices: Floats) -> Floats:
-    return vertices.astype(np.float32).astype(np.float64)
+    return crossing_in_files(part, pairs_at_planes(part, step, monitor, wanted), step)
 
 
 def _find_worse(mesh: TriangleMesh, chosen: Bools, before: Ints, after: Ints) -> Bools:
@@ -604,96 +605,3 @@ def _unit_normals(columns: Floats, corners: NDArray[np.int32]) -> list[Floats]:
     normal = cross_columns(e, f)
     length = np.maximum(np.sqrt(sum(along * along for along in normal)), 1e-300)
     return [along / length for along in normal]
-
-
-class CrossingWatch:
-    """Which triangles of a mesh may meet those that are watched.
-
-    Args:
-        mesh: any mesh, mm.
-        watched: (m,) bool, triangles whose vertices will move first.
-        monitor: asked for a cancel.
-    """
-
-    def __init__(self, mesh: TriangleMesh, watched: Bools, monitor: Monitor) -> None:
-        self._triangles = mesh.triangles
-        self._corners = np.ascontiguousarray(mesh.triangles.T)
-        self._step = decimal_step(mesh.vertices)
-        self._monitor = monitor
-        self._box = _boxes(mesh.vertices, mesh.triangles)
-        size = (self._box[:, 1] - self._box[:, 0]).max(axis=1)
-        self._room = ROOM * float(np.median(size[watched])) + self._step
-        self._watched = watched.copy()
-        self._pairs = [self._close(watched)]
-
-    def crossing(self, vertices: Floats, moved: Bools) -> Ints:
-        """(k, 2) triangles that cross in a binary file or in one of text, once vertices moved.
-
-        Args:
-            vertices: (n, 3) where they are now, mm.
-            moved: (n,) bool; at least one of each two triangles has such a vertex.
-
-        Raises:
-            Cancelled: when the monitor says so.
-        """
-        self._monitor.tick()
-        a, b, c = (moved[corner] for corner in self._corners)
-        among = a | b | c
-        rows = np.flatnonzero(among)
-        box, room = _boxes(vertices, self._triangles[rows]), self._room - self._step
-        left = (box[:, 0] < self._box[rows, 0] - room) | (box[:, 1] > self._box[rows, 1] + room)
-        out = left[:, 0] | left[:, 1] | left[:, 2] | ~self._watched[rows]
-        if out.any():
-            self._box[rows[out]] = box[out]
-            gone = np.zeros(len(among), bool)
-            gone[rows[out]] = True
-            self._watched |= gone
-            self._pairs.append(self._close(gone))
-        pairs = [some[among[some[:, 0]] | among[some[:, 1]]] for some in self._pairs]
-        # Neither rounding moves a coordinate by more than a step: few pairs need an exact look.
-        chosen, used = np.concatenate(pairs), np.zeros(len(among), bool)
-        used[chosen] = True
-        number, some = np.cumsum(used, dtype=np.int32) - np.int32(1), np.flatnonzero(used)
-        part = compact(TriangleMesh(vertices, self._triangles[some]))
-        close = pairs_among(part, self._step, number[chosen])
-        found = []
-        for version in (part.vertices, rounded(part.vertices, self._step)):
-            single = version.astype(np.float32).astype(np.float64)
-            found.append(piercing_among(TriangleMesh(single, part.triangles), close))
-        result: Ints = np.unique(some[np.concatenate(found)], axis=0)
-        return result
-
-    def _close(self, among: Bools) -> NDArray[np.int32]:
-        """(k, 2) triangles whose boxes may meet, at least one of them chosen."""
-        rows, found = self._about(among), [np.zeros((0, 2), np.int32)]
-        number = rows.astype(np.int32)
-        for a, b in close_pairs(self._box[rows], among[rows], self._room):
-            self._monitor.tick()
-            found.append(np.stack([number[a], number[b]], axis=1))
-        return np.concatenate(found)
-
-    def _about(self, among: Bools) -> Ints:
-        """The triangles that may reach into cells of a grid that chosen ones reach into."""
-        low, high = self._box[:, 0] - self._room, self._box[:, 1] + self._room
-        least, most = low.min(axis=0), high.max(axis=0)
-        size = max(
-            float((high[among] - low[among]).max()), float((most - least).max()) / MOST_CELLS
-        )
-        first = ((low - least) / size).astype(np.int16)
-        taken = np.zeros(((most - least) / size).astype(np.int64) + 2, bool)
-        # A box no larger than a cell reaches into its first one and those that follow.
-        for step in np.ndindex(2, 2, 2):
-            taken[tuple((first[among] + np.array(step)).T)] = True
-        near, padded = np.zeros_like(taken), np.pad(taken, ((0, 1),) * 3)
-        for i, j, k in np.ndindex(2, 2, 2):
-            near |= padded[i:, j:, k:][: near.shape[0], : near.shape[1], : near.shape[2]]
-        x, y, z = (high - low).T
-        result: Ints = np.flatnonzero(
-            near[tuple(first.T)] | among | (x > size) | (y > size) | (z > size)
-        )
-        return result
-
-
-def _boxes(vertices: Floats, triangles: NDArray[np.int32]) -> Floats:
-    """(m, 2, 3) the lowest and the highest corners of triangles."""
-    return np.stack([end.T for end in triangle_boxes(vertices.T, triangles.T)], axis=1)

@@ -34,6 +34,7 @@ from ..util.parallel import ParallelBackend, SharedValue
 from ..util.progress import Monitor
 from ..util.threads import threads
 from ..util.types import Bools, Floats, Ints
+from .alike_groups import Alike, find_alike
 from .culling import KeptOctants, without_pinches
 from .group_cut import Piece, cut_group, read_runs
 from .octant_groups import Groups, group_octants
@@ -176,16 +177,23 @@ def _cut(
 ) -> dict[int, Piece]:
     """What the Boolean leaves of some of the groups."""
     found: dict[int, Piece] = {}
+    copied: dict[int, Alike] = {}
     if groups.count > 1:  # few are not certain where the wall is open, mostly none
+        copied = find_alike(groups, which, cavity)
+        others = [k for alike in copied.values() for k, _ in alike.others]
+        which = np.setdiff1d(which, np.array(others, np.int64))
         with _open_cuts(groups, which, cavity, executor) as cuts:
             found.update(_cut_each(cuts, len(which), executor, monitor))
         which = np.array([k for k in which if found[k].needs_solid], np.int64)
-        if not len(which):
-            return found
-        monitor.count("groups cut again at a solid wall", len(which))
-    solids = groups.with_solids(which, cavity, monitor)
-    given = ((k, partial(cut_group, group)) for k, group in solids)
-    found.update(_cut_each(given, len(which), executor, monitor))
+        if len(which):
+            monitor.count("groups cut again at a solid wall", len(which))
+    if len(which):
+        solids = groups.with_solids(which, cavity, monitor)
+        given = ((k, partial(cut_group, group)) for k, group in solids)
+        found.update(_cut_each(given, len(which), executor, monitor))
+    for number, alike in copied.items():
+        found.update(alike.copies(found[number]))
+        monitor.count("groups copied", len(alike.others))
     return found
 
 

@@ -32,6 +32,7 @@ from ..util.parallel import ParallelBackend, SharedArray
 from ..util.progress import Monitor
 from ..util.types import Bools, Floats, Ints
 from .culling import without_pinches
+from .flat_walls import FlatWall, Tiles, tile, with_squares
 from .group_cut import Group, Piece, rim_of
 from .placed_lattice import PlacedLattice
 
@@ -45,6 +46,8 @@ LONGEST_SIDE = 1.0
 BEYOND = 0.1373
 #: Boxes that are nearer than this count as touching, in octants.
 NEAR = 1e-6
+#: Equal lengths differ by less than this part of them.
+ROUNDING = 1e-9
 #: Triangles of the wall that octants at them are looked for at a time.
 CALL_TRIANGLES = 1 << 15
 
@@ -63,6 +66,7 @@ class Groups:
         touch: (t, 2) octants and triangles whose boxes touch.
         count: of groups.
         precision: slivers thinner than that go, mm.
+        repeats: (count,) bool, those that probably are as others are.
     """
 
     lattice: PlacedLattice
@@ -75,6 +79,7 @@ class Groups:
     touch: Ints
     count: int
     precision: float
+    repeats: Bools
 
     def merged(self, which: Ints) -> tuple[Groups, Ints]:
         """With some of the groups as one; and (count,) the new number of each."""
@@ -82,9 +87,11 @@ class Groups:
         number[which] = which.min()
         left, number = np.unique(number, return_inverse=True)
         triangle = np.where(self.triangle < 0, -1, number[self.triangle])
+        repeats = self.repeats[left]
+        repeats[number[which]] = False
         groups = Groups(
             self.lattice, self.boundary, self.places, self.low, self.high, number[self.octant],
-            triangle, self.touch, len(left), self.precision,
+            triangle, self.touch, len(left), self.precision, repeats,
         )  # fmt: skip
         return groups, number
 
@@ -271,17 +278,39 @@ def group_octants(
         return Groups(
             lattice, boundary, places, nowhere, nowhere, np.zeros(len(places), np.int64),
             np.zeros(len(boundary.triangles), np.int64), np.zeros((0, 2), np.int64), 1,
-            precision,
+            precision, np.zeros(1, bool),
         )  # fmt: skip
     places, low, high = lattice.boxes(lattice.kept.border, monitor)
     edge = _edge(low, high)
-    octant, count = _halve(places, _triangles(layout, places))
-    fine = _split(boundary, LONGEST_SIDE * edge, *_bounds(low, high, octant, count))
+    flat, longest = _flat_wall(lattice, boundary), LONGEST_SIDE * edge
+    tiles = None if flat is None else tile(flat, places, low, high)
+    if flat is None or tiles is None:
+        tiles = Tiles(np.full(len(places), -1), np.zeros(0, np.int64), 0)
+    else:
+        boundary = flat.mesh
+        # No side of a square is too long, whose halves stay.
+        longest = max(longest, 0.5 * layout.grid.cell_size) * (1.0 + ROUNDING)
+    octant, tiled, repeating = tiles.octant, tiles.triangle, tiles.count
+    rest = np.flatnonzero(octant < 0)
+    own, more = _halve(places[rest], _triangles(layout, places[rest]))
+    octant[rest], count = own + repeating, repeating + more
+    bounds = _bounds(low, high, octant, count)
+    fine = _split(boundary, longest, *bounds, len(tiled))
     touch = _touching(low, high, fine, NEAR * edge, monitor.backend)
     return Groups(
         lattice, fine, places, low, high, octant,
-        _owners(touch, octant, count, len(fine.triangles)), touch, count, precision,
+        _owners(touch, octant, count, len(fine.triangles), tiled, repeating), touch, count,
+        precision, np.arange(count) < repeating,
     )  # fmt: skip
+
+
+def _flat_wall(lattice: PlacedLattice, boundary: TriangleMesh) -> FlatWall | None:
+    """The wall with squares on its flat faces; None where there are none along the octants."""
+    grid = lattice.layout.grid
+    if lattice.points is not None or lattice.motion.frame is not None or any(grid.periodic):
+        return None
+    half = 0.5 * grid.cell_size
+    return with_squares(boundary, lattice.motion(grid.origin - half), half)
 
 
 def _edge(low: Floats, high: Floats) -> float:
@@ -299,7 +328,7 @@ def _triangles(layout: Layout, places: Ints) -> Ints:
 def _halve(places: Ints, weight: Ints) -> tuple[Ints, int]:
     """The group of each octant, by halves along the longest side, and how many there are."""
     group = np.zeros(len(places), np.int64)
-    count, waiting = 0, [np.arange(len(places))]
+    count, waiting = 0, [np.arange(len(places))] if len(places) else []
     while waiting:
         rows = waiting.pop()
         axis = int(np.ptp(places[rows], axis=0).argmax())
@@ -324,7 +353,9 @@ def _bounds(low: Floats, high: Floats, group: Ints, count: int) -> tuple[Floats,
     return least, most
 
 
-def _split(mesh: TriangleMesh, longest: float, low: Floats, high: Floats) -> TriangleMesh:
+def _split(
+    mesh: TriangleMesh, longest: float, low: Floats, high: Floats, squares: int = 0
+) -> TriangleMesh:
     """The same surface, of small triangles where it reaches into more than one box.
 
     Args:
@@ -332,14 +363,16 @@ def _split(mesh: TriangleMesh, longest: float, low: Floats, high: Floats) -> Tri
         longest: side of those, mm.
         low: (k, 3) lowest corners of the boxes, mm.
         high: (k, 3) highest ones, mm.
+        squares: so many of the first triangles are halves of squares, no longer than that, and
+            stay.
     """
     points, triangles = mesh.vertices, mesh.triangles.astype(np.int64)
-    some, others = np.arange(len(triangles)), np.zeros(0, np.int64)
+    some, others = np.arange(squares, len(triangles)), np.zeros(0, np.int64)
     while True:
         # Axis by axis, which numpy takes in faster than rows of three.
         corners = [[points[triangles[some, k], axis] for k in range(3)] for axis in range(3)]
-        squares = [[(a - b) ** 2 for a, b in zip(c, c[1:] + c[:1], strict=True)] for c in corners]
-        sides = np.stack([x + y + z for x, y, z in zip(*squares, strict=True)], axis=1)
+        squared = [[(a - b) ** 2 for a, b in zip(c, c[1:] + c[:1], strict=True)] for c in corners]
+        sides = np.stack([x + y + z for x, y, z in zip(*squared, strict=True)], axis=1)
         is_long = (sides > longest**2).any(axis=1)
         some, sides = some[is_long], sides[is_long]
         spans = [
@@ -407,13 +440,26 @@ def _touched_by(
     return found
 
 
-def _owners(touch: Ints, octant: Ints, count: int, triangles: int) -> Ints:
-    """(m,) the group that most of the octants about each triangle belong to; -1 for none."""
+def _owners(
+    touch: Ints, octant: Ints, count: int, triangles: int, tiled: Ints, repeating: int
+) -> Ints:
+    """(m,) the group that most of the octants about each triangle belong to; -1 for none.
+
+    Args:
+        touch: (t, 2) octants and triangles that touch.
+        octant: (k,) the group of each.
+        count: of groups.
+        triangles: how many there are.
+        tiled: groups of the first triangles that are known, -1 for others.
+        repeating: so many of the first groups have their own triangles only, if others can.
+    """
+    owner = np.full(triangles, -1, np.int64)
     pair, often = np.unique(touch[:, 1] * count + octant[touch[:, 0]], return_counts=True)
     triangle, group = np.divmod(pair, count)
-    order = np.argsort(often, kind="stable")
-    owner = np.full(triangles, -1, np.int64)
+    order = np.lexsort((often, group >= repeating))
     owner[triangle[order]] = group[order]
+    known = np.flatnonzero(tiled >= 0)
+    owner[known] = tiled[known]
     return owner
 
 

@@ -7,8 +7,8 @@ import pytest
 import samples
 from volfrep.io.write.stl import as_read
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
+from volfrep.spatial.crossing_watch import CrossingWatch
 from volfrep.spatial.piercing import piercing_pairs
-from volfrep.spatial.resolve_crossings import CrossingWatch
 from volfrep.util.progress import Monitor
 
 

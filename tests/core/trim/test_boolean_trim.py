@@ -53,7 +53,7 @@ def trimmed(
     domain, name="CVC", radius=1.0, cavity=True, grow=0, executor=None, precision=0.0, monitor=None
 ):
     """The lattice cut at the domain; with `grow`, that many more octants go into the Boolean."""
-    cell, monitor = LIBRARY[name], monitor or Monitor()
+    cell, monitor = LIBRARY[name] if isinstance(name, str) else name, monitor or Monitor()
     cells = make_grid(domain.bounds, L, (1.3, 2.1, 0.7))
     roles = octant_roles(domain, cells, monitor)
     if grow:

@@ -460,9 +460,9 @@ def nodes_on(filled: TetrahedralMesh, surface: TriangleMesh) -> Ints:
     near = SURFACE_TOLERANCE * float(np.linalg.norm(high - low))
     # Nodes inside may be as near as that.
     faces = _outer_faces(filled)
+    rows = np.unique(faces)
 
     def are_within(reach: float) -> Bools:
-        rows = np.unique(faces)
         result = np.zeros(len(filled.nodes), bool)
         result[rows] = are_nearer(surface, filled.nodes[rows], np.full(len(rows), reach))
         return result

@@ -33,8 +33,8 @@ POINTS_PER_STEP = 50_000
 PAIRS_PER_STEP = 2_000_000
 #: So many points are asked at a time for the farthest, beginning with those that may be.
 FARTHEST_PER_STEP = 2000
-#: So many points are told by one cube at first whether they are near at all; a dozen times as
-#: many, as of a lattice in a part most cubes hold none.
+#: So many points are told by one cube at first whether they are near at all, were they spread
+#: evenly. Of a lattice most cubes hold none, and the others about a dozen times as many.
 POINTS_PER_CUBE = 4
 #: Points that one thread looks for at a time.
 POINTS_PER_WALK = 4096

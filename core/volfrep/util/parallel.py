@@ -91,26 +91,25 @@ class LocalValue(Generic[Shared]):
 
 @dataclass(frozen=True)
 class MappedValue(Generic[Shared]):
-    """A value whose arrays lie in a file that processes map into their memory.
+    """A value in a file whose arrays processes map into their memory.
+
+    Of it a call is sent a few bytes: a large value has thousands of arrays.
 
     Attributes:
         path: of the file.
-        rest: the value without these, pickled.
-        spans: where each begins and ends, bytes.
+        last: where the value without its arrays, pickled, and the place of each begin, bytes.
     """
 
     path: Path
-    rest: bytes
-    spans: tuple[tuple[int, int], ...]
+    last: int
 
     @property
     def value(self) -> Shared:
         """It, made anew; the file is closed once nobody has its arrays any more."""
         with self.path.open("rb") as file:
             data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
-        found: Shared = pickle.loads(
-            self.rest, buffers=[data[low:high] for low, high in self.spans]
-        )
+        rest, spans = pickle.loads(data[self.last :])
+        found: Shared = pickle.loads(rest, buffers=[data[low:high] for low, high in spans])
         return found
 
 
@@ -276,12 +275,13 @@ class ParallelBackend:
         with _folder() as folder:
             path, spans = folder / "arrays", []
             with path.open("wb") as file:
-                file.write(bytes(ALIGNED))  # an empty file cannot be mapped
                 for buffer in buffers:
                     file.write(bytes(-file.tell() % ALIGNED))
                     begin = file.tell()
                     spans.append((begin, begin + file.write(buffer.raw())))
-            yield MappedValue(path, rest, tuple(spans))
+                last = file.tell()
+                file.write(pickle.dumps((rest, spans), protocol=5))
+            yield MappedValue(path, last)
 
 
 class _RowFile:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Arrays that calls of other processes share."""
 
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -118,6 +119,19 @@ def test_an_array_of_columns_is_shared_in_its_order() -> None:
         assert np.array_equal(columns.array, ROWS.T)
         assert columns.array.flags.f_contiguous
         assert np.array_equal(turned.array, ROWS[:, ::-1])
+
+
+def test_of_a_value_that_is_shared_a_call_is_sent_its_place_only() -> None:
+    steps = [np.arange(float(k)) for k in range(500)]
+    value = {"steps": steps, "name": "octants", "turned": ROWS.T}
+    with Processes().sharing_value(value) as shared:
+        sent = pickle.dumps(shared)
+        assert len(sent) < 1000
+        found = pickle.loads(sent).value
+    assert found["name"] == "octants"
+    for step, wanted in zip(found["steps"], steps, strict=True):
+        assert np.array_equal(step, wanted)
+    assert np.array_equal(found["turned"], ROWS.T)
 
 
 def test_no_file_is_left_where_rows_do_not_come(

@@ -29,6 +29,7 @@ from ..process.pool import at_once, awaited, backend_of
 from ..spatial.rays import inside_points
 from ..spatial.resolve_crossings import Looks
 from ..util.errors import VolfrepError
+from ..util.linalg import along
 from ..util.manifold import manifold_library
 from ..util.parallel import ParallelBackend, SharedValue
 from ..util.progress import Monitor
@@ -42,7 +43,6 @@ from .placed_lattice import InnerOctants, PlacedLattice, Proof, prove
 from .trimmed_surface import (
     TrimmedSurface,
     concatenated_at,
-    equal_rows,
     hash_points,
     rows_along,
 )
@@ -56,6 +56,8 @@ Cut = Callable[..., Piece]
 Ahead = Callable[[InnerOctants], None]
 #: Vertices of two groups are the same within this part of the shortest edge that files hold.
 SAME_VERTEX = 1e-4
+#: A direction along which points that repeat in a lattice are far from each other.
+ASKEW = np.array([0.5773102, 0.6180339, 0.5335218])
 
 
 @dataclass(frozen=True, eq=False)
@@ -460,15 +462,40 @@ def _same_vertices(points: Floats, rim: Floats, tolerance: float) -> tuple[Ints,
         row[same] = place[same]
     alone = often == 1
     alone[row[row >= 0]] = False
-    if alone.any() or not np.array_equal(points[first[cluster]], points):
-        from scipy.spatial import cKDTree  # slow to import
+    other = np.flatnonzero((points[first[cluster]] != points).any(axis=1))  # of the same hash
+    cluster[other] = len(first) + np.arange(len(other))
+    first, alone = np.append(first, other), np.append(alone, np.ones(len(other), bool))
+    if not alone.any():
+        return cluster, first, row
+    one, two = _within(points[first], tolerance)
+    count, joined = pieces_of(one, two, len(first))
+    lowest = np.empty(count, np.int64)
+    lowest[joined] = first
+    for near in (one, two):  # few have more than one
+        np.minimum.at(lowest, joined[near], first[near])
+    # It has the place of the first piece's.
+    there = np.flatnonzero(row >= 0)
+    moves = lowest[joined[row[there]]] != first[row[there]]
+    row[there] = np.where(moves, -1, joined[row[there]])
+    return joined[cluster], lowest, row
 
-        pairs = cKDTree(points).query_pairs(tolerance, output_type="ndarray").astype(np.int64)
-        count, cluster = pieces_of(pairs[:, 0], pairs[:, 1], len(points))
-        first = np.full(count, len(points))
-        np.minimum.at(first, cluster, np.arange(len(points)))
-        row = equal_rows(rim, points[first])
-    return cluster, first, row
+
+def _within(points: Floats, tolerance: float) -> tuple[Ints, Ints]:
+    """Pairs of points that lie within the tolerance, mm: few."""
+    height = along(points, ASKEW)
+    order = np.argsort(height)
+    height, found = height[order], [np.zeros((2, 0), np.int64)]
+    first = np.arange(len(points))
+    for step in range(1, len(points)):
+        first = first[: np.searchsorted(first, len(points) - step)]
+        first = first[height[first + step] - height[first] <= 2.0 * tolerance]  # and rounding
+        if not len(first):
+            break
+        pair = order[np.stack([first, first + step])]
+        near = ((points[pair[0]] - points[pair[1]]) ** 2).sum(axis=1) <= tolerance**2
+        found.append(pair[:, near])
+    one, two = np.concatenate(found, axis=1)
+    return one, two
 
 
 def _join_shells(

@@ -426,6 +426,20 @@ def test_pieces_whose_vertices_differ_by_rounding_only_are_joined(off):
     assert joined_halves(off=1e-6)[0].loose.tolist() == [0, 1]
 
 
+def test_four_pieces_are_joined_where_two_have_the_very_same_vertices_each():
+    """All four meet at two vertices, and differ there by rounding, two and two."""
+    ball, pieces = trimesh.creation.icosphere(3), []
+    right, front = (ball.triangles_center[:, k] > 0.0 for k in range(2))
+    for chosen, moved in ((right & front, 0.0), (right & ~front, 0.0),
+                          (~right & front, 1e-10), (~right & ~front, 1e-10)):  # fmt: skip
+        mesh = compact(TriangleMesh(ball.vertices + moved, ball.faces[chosen].astype(np.int32)))
+        pieces.append(Piece(mesh, np.ones(int(chosen.sum()), bool), rim_of(mesh)))
+    found = join(pieces, np.zeros((0, 3)), 1e-9)
+    assert not len(found.loose)
+    assert len(found.mesh.vertices) == len(ball.vertices)
+    assert quality.measure(found.mesh).watertight
+
+
 @pytest.mark.parametrize("other", [(0, 2, 1), (0, 1, 2)], ids=["back to back", "twice"])
 def test_triangles_that_lie_on_each_other_in_two_pieces_are_found_out(other):
     assert joined_halves((0, 1, 2), other)[0].loose.tolist() == [0, 1]

@@ -207,13 +207,19 @@ NO_REPAIR = Repair(
 )
 
 
-def repair_slivers(mesh: TriangleMesh, tolerance: float, among: Ints | None = None) -> Repair:
+def repair_slivers(
+    mesh: TriangleMesh,
+    tolerance: float,
+    among: Ints | None = None,
+    backend: ParallelBackend | None = None,
+) -> Repair:
     """As `remove_slivers`: what changes; with `among` only these triangles are looked at.
 
     Args:
         mesh: all of its vertices in use.
         tolerance: mm.
         among: rows of triangles; None: all.
+        backend: as of `touching`.
     """
     if among is None:
         thin = slivers(mesh, tolerance)
@@ -221,7 +227,7 @@ def repair_slivers(mesh: TriangleMesh, tolerance: float, among: Ints | None = No
         thin = among[_slivers(mesh.vertices, mesh.triangles[among], tolerance)]
     if not len(thin):
         return NO_REPAIR
-    rest = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES)
+    rest = _without(mesh.vertices, mesh.triangles, thin, tolerance, PASSES, None, backend)
     differs, new = rest.differences(mesh)
     # Vertices at the border of what was looked at are those of other triangles, too, and stay.
     unused = vertices_of(mesh.triangles[rest.old], len(mesh.vertices))
@@ -359,6 +365,7 @@ def _without(
     tolerance: float,
     passes: int,
     changed: Bools | None = None,
+    backend: ParallelBackend | None = None,
 ) -> _Rest:
     """What is left of a mesh with some slivers.
 
@@ -372,8 +379,8 @@ def _without(
             nothing = np.zeros(0, np.int64)
             return _Rest(nothing, points[nothing], triangles[nothing], nothing, nothing)
     near = vertices_of(triangles[thin], len(points))
-    near[triangles[touching(near, triangles)]] = True
-    part = np.flatnonzero(touching(near, triangles))
+    near[triangles[touching(near, triangles, backend)]] = True
+    part = np.flatnonzero(touching(near, triangles, backend))
     used, local = numbered(triangles[part], len(points))
     moved, kept, inner, origin = _collapse(points[used], local, tolerance)
     inner, flipped = _flip_slivers(moved, inner, tolerance)

@@ -231,6 +231,7 @@ def quality_after_moves(
     after: TriangleMesh,
     bounds: NDArray[np.float64],
     least: float,
+    backend: ParallelBackend | None = None,
 ) -> Quality | None:
     """The quality of a surface some of whose vertices have moved, by a look at those only.
 
@@ -240,11 +241,13 @@ def quality_after_moves(
         after: the same triangles where they are now.
         bounds: (2, 3) of the surface as it is now, mm.
         least: no shell of it enclosed less, mm3.
+        backend: as of `touching`.
 
     Returns:
         None where a shell may have been turned inside out.
     """
-    rows = np.flatnonzero(touching(displaced_vertices(before, after), before.triangles))
+    moved = displaced_vertices(before, after)
+    rows = np.flatnonzero(touching(moved, before.triangles, backend))
     if not len(rows):
         return replace(quality, bounds=bounds)
     used, local = np.unique(before.triangles[rows], return_inverse=True)

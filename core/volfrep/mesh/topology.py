@@ -23,6 +23,8 @@ from .triangle_mesh import TriangleMesh
 
 #: Triangles whose edges are counted at once: what that takes does not grow with the mesh then.
 BLOCK_TRIANGLES = 1 << 17
+#: Triangles that another process looks at at a time.
+CALL_TRIANGLES = 1 << 20
 #: Vertices chosen at one place are among so few of all that follow each other.
 NARROW = 0.05
 #: A use of an edge from its lower to its higher end, and one the other way, in one sum of both.
@@ -68,9 +70,25 @@ def corners_among(chosen: Bools, triangles: NDArray[Any]) -> NDArray[np.int8]:
     return np.concatenate(list(in_threads(block, range(0, len(triangles), BLOCK_TRIANGLES))))
 
 
-def touching(chosen: Bools, triangles: NDArray[Any]) -> Bools:
-    """(m,) which triangles have a corner among the chosen vertices, (n,) bool."""
+def touching(
+    chosen: Bools, triangles: NDArray[Any], backend: ParallelBackend | None = None
+) -> Bools:
+    """(m,) which triangles have a corner among the chosen vertices, (n,) bool.
+
+    Args:
+        chosen: vertices.
+        triangles: corners of each.
+        backend: looks at those that lie where it sees them; None: threads do.
+    """
     rows = np.flatnonzero(chosen)
+    if backend is not None and backend.sees(triangles) and len(rows):
+        found = np.zeros(len(triangles), bool)
+        with backend.sharing(rows, triangles) as shared:
+            starts = range(0, len(triangles), CALL_TRIANGLES)
+            calls = ((len(chosen), *shared, start) for start in starts)
+            for some in backend.starmap(_touching_some, calls):
+                found[some] = True
+        return found
     first, last = (int(rows[0]), int(rows[-1])) if len(rows) else (0, -1)
 
     def block(start: int) -> Bools:
@@ -86,6 +104,15 @@ def touching(chosen: Bools, triangles: NDArray[Any]) -> Bools:
     if len(triangles) <= BLOCK_TRIANGLES:
         return block(0)
     return np.concatenate(list(in_threads(block, range(0, len(triangles), BLOCK_TRIANGLES))))
+
+
+def _touching_some(count: int, rows: SharedArray, triangles: SharedArray, start: int) -> Ints:
+    """As `touching`, the numbers of some of many triangles; chosen are rows of so many vertices."""
+    chosen = np.zeros(count, bool)
+    chosen[rows.array] = True
+    some = touching(chosen, triangles.array[start : start + CALL_TRIANGLES])
+    found: Ints = np.flatnonzero(some) + start
+    return found
 
 
 def vertices_of(triangles: NDArray[Any], count: int) -> Bools:

@@ -31,6 +31,7 @@ from ..mesh.topology import (
 )
 from ..mesh.triangle_mesh import TriangleMesh, compact, corners_at, triangle_boxes
 from ..util.linalg import cross_columns, normalize
+from ..util.parallel import ParallelBackend
 from ..util.progress import Monitor
 from ..util.threads import in_threads
 from ..util.types import Bools, Floats, Ints
@@ -163,14 +164,15 @@ class Looks:
         """(m,) bool, triangles of which no two cross each other in a file."""
         return np.asarray(self.marks & APART != 0, np.bool_)
 
-    def folds(self, mesh: TriangleMesh, deformed: bool) -> Bools:
+    def folds(self, mesh: TriangleMesh, deformed: bool, backend: ParallelBackend) -> Bools:
         """As `find_folds`, by a look at edges between triangles that are not judged."""
         turned = self.marks & TURNED != 0
         rows = self.unjudged
         if len(rows):
             part = compact(TriangleMesh(mesh.vertices, mesh.triangles[rows]))
             turned[rows[turning(part, deformed, self.step)]] = True
-        return touching(vertices_of(mesh.triangles[turned], len(mesh.vertices)), mesh.triangles)
+        at_turned = vertices_of(mesh.triangles[turned], len(mesh.vertices))
+        return touching(at_turned, mesh.triangles, backend)
 
 
 def look_at(
@@ -235,7 +237,7 @@ def folds_of(
     elif looks is None:
         among = find_folds(mesh, deformed)
     else:
-        among = looks.folds(mesh, deformed)
+        among = looks.folds(mesh, deformed, monitor.backend)
     if also is not None:
         among |= also
     apart = None if looks is None else looks.uncrossed
@@ -273,7 +275,7 @@ def resolve_fold_crossings(
         mesh, pairs = _resolve(mesh, pairs, folded.among, SHARES, monitor)
     if mesh is not before:  # what moved may have met what lies anywhere
         moved = displaced_vertices(before, mesh)
-        went = touching(moved, mesh.triangles)
+        went = touching(moved, mesh.triangles, monitor.backend)
         stay = folded.pairs[~went[folded.pairs].any(axis=1)]
         # Nothing else has moved, and the mesh as it was may lie in a file already.
         corners = corners_at(mesh.vertices, mesh.triangles[went])
@@ -357,13 +359,13 @@ class _Places:
         """With triangles among the chosen or beside them, and all that may move."""
         near = vertices_of(mesh.triangles[pairs], len(mesh.vertices))
         for _ in range(MOST_RINGS):
-            near[mesh.triangles[touching(near, mesh.triangles)]] = True
+            near[mesh.triangles[touching(near, mesh.triangles, monitor.backend)]] = True
         near[mesh.triangles[among]] = True
-        inside = touching(near, mesh.triangles)
+        inside = touching(near, mesh.triangles, monitor.backend)
         rows = np.flatnonzero(inside)
         # What else has a corner there holds that, and is little beside the rest of the mesh.
         there = vertices_of(mesh.triangles[rows], len(near))
-        ring = touching(there, mesh.triangles) & ~inside
+        ring = touching(there, mesh.triangles, monitor.backend) & ~inside
         return cls(
             mesh, rows, pairs, there & ~vertices_of(mesh.triangles[ring], len(near)), monitor
         )
@@ -469,7 +471,7 @@ def _crossing(
     not among those of which it is known that no two cross, (m,) bool.
     """
     near = vertices_of(mesh.triangles[among], len(mesh.vertices))
-    rows = np.flatnonzero(touching(near, mesh.triangles))
+    rows = np.flatnonzero(touching(near, mesh.triangles, monitor.backend))
     step = decimal_step(mesh.vertices)
     wanted = None if apart is None else ~apart[rows]
     if moved is not None:

@@ -62,7 +62,7 @@ def mend(surface: TrimmedSurface, precision: float, monitor: Monitor) -> MendedS
     """As `tidy`, what changes told and not yet done."""
     looks, mesh = surface.looks, surface.mesh
     unsound = looks.unsound if looks and looks.step * STEPS == precision else None
-    repair = repair_slivers(mesh, precision, unsound)
+    repair = repair_slivers(mesh, precision, unsound, monitor.backend)
     if not repair.new.any():
         return MendedSurface(surface, repair, shells=surface.shells)
     fresh = repair.piece[repair.new]
@@ -176,7 +176,9 @@ def _quality_after(
     """The quality of a surface that vertices of its mesh have moved on, as of `finish`."""
     found = None
     if least > 0.0 and surface.mesh.triangles is before.triangles and surface.is_joined:
-        found = quality_after_moves(quality, before, surface.mesh, surface.bounds, 0.5 * least)
+        found = quality_after_moves(
+            quality, before, surface.mesh, surface.bounds, 0.5 * least, monitor.backend
+        )
     return surface.inspected(monitor).found.quality if found is None else found
 
 
@@ -204,13 +206,14 @@ def thinned(
     """
     precision, mesh = edge_within(surface.bounds), surface.mesh
     crossing = vertices_of(mesh.triangles[folded.pairs], len(mesh.vertices))
-    about = np.flatnonzero(touching(crossing, mesh.triangles))
+    about = np.flatnonzero(touching(crossing, mesh.triangles, monitor.backend))
     for factor in THINNER:
-        repair = repair_slivers(mesh, factor * precision, about)
+        repair = repair_slivers(mesh, factor * precision, about, monitor.backend)
         if not repair.new.any():
             continue
         fresh = vertices_of(repair.piece[repair.new], len(mesh.vertices))
-        beside = np.flatnonzero(touching(fresh, mesh.triangles) & repair.stays(mesh))
+        at_fresh = touching(fresh, mesh.triangles, monitor.backend)
+        beside = np.flatnonzero(at_fresh & repair.stays(mesh))
         mended = MendedSurface(surface, repair, beside)
         changed = mended.applied(backend=monitor.backend)
         if not (mended.is_joined_as_before or changed.is_joined):
@@ -258,7 +261,7 @@ def _with_reached(
     if moved[surface.rim_rows].any():
         return TrimmedSurface(surface.whole(monitor))
     vertices, triangles = changed.mesh.vertices, changed.mesh.triangles
-    went = touching(moved, triangles)
+    went = touching(moved, triangles, monitor.backend)
     reached = surface.octants.reached(vertices[triangles[went]])
     return surface.with_octants(reached, monitor) if reached.any() else changed
 

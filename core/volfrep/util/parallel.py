@@ -137,6 +137,10 @@ class ParallelBackend:
         """
         return partial(function, *given)
 
+    def sees(self, array: NDArray[Any]) -> bool:
+        """Whether an array lies in a file for other processes already: `gathered` was."""
+        return self.uses_processes and _file_of(array) is not None
+
     @contextmanager
     def sharing(self, *arrays: NDArray[Any]) -> Iterator[tuple[SharedArray, ...]]:
         """Arrays of numbers for the calls.

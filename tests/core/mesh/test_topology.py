@@ -12,6 +12,7 @@ from volfrep.mesh.quality import inspect
 from volfrep.mesh.topology import edge_uses
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.process.pool import WorkerPool, backend_of, processes
+from volfrep.util.parallel import ParallelBackend
 
 
 def torn(seed):
@@ -115,6 +116,22 @@ def test_triangles_touch_chosen_vertices_that_lie_together_or_anywhere(chosen, m
     among[chosen] = True
     expected = np.isin(mesh.triangles, chosen).any(axis=1)
     np.testing.assert_array_equal(topology.touching(among, mesh.triangles), expected)
+
+
+@pytest.mark.parametrize("chosen", [[], [0, 200, 641]])
+def test_processes_look_for_the_triangles_that_touch_in_the_file_of_a_mesh(chosen, monkeypatch):
+    monkeypatch.setattr(ParallelBackend, "uses_processes", True)
+    monkeypatch.setattr(topology, "CALL_TRIANGLES", 300)
+    backend, calls, mesh = ParallelBackend(), [], samples.sphere(10.0, 3)
+    real = backend.starmap
+    backend.starmap = lambda function, given: real(function, calls.extend(given) or calls)
+    among = np.zeros(len(mesh.vertices), bool)
+    among[chosen] = True
+    expected = topology.touching(among, mesh.triangles, backend)
+    assert not calls, "it would be copied there first"
+    in_file = backend.gathered([mesh.triangles], mesh.triangles.shape, np.int32)
+    np.testing.assert_array_equal(topology.touching(among, in_file, backend), expected)
+    assert len(calls) == (5 if chosen else 0)
 
 
 @pytest.mark.costly

@@ -212,7 +212,7 @@ def test_graded_struts_that_run_through_each_other_are_told_with_their_place(mon
 def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
     box = samples.box()
 
-    def bad(mesh, tolerance, among=None):
+    def bad(mesh, tolerance, among=None, backend=None):
         every, none = np.arange(len(mesh.triangles)), np.zeros(0, np.int64)
         # A corner through the opposite faces.
         through = mesh.vertices[:1] + np.array([70.0, 55.0, 40.0])
@@ -226,7 +226,7 @@ def test_slivers_stay_where_facets_would_cross_without_them(monkeypatch):
 def test_slivers_away_from_all_octants_take_none_of_these_along(monkeypatch):
     """Whatever edges they have: no octant has any there."""
 
-    def rebuilt(mesh, tolerance, among=None):
+    def rebuilt(mesh, tolerance, among=None, backend=None):
         corner = mesh.vertices.sum(axis=1).argmin()
         rows, none = np.flatnonzero((mesh.triangles == corner).any(axis=1)), np.zeros(0, np.int64)
         piece, every = mesh.triangles[rows], np.arange(len(rows))

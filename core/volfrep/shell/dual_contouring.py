@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.triangle_mesh import TriangleMesh
-from ..util.linalg import symmetric_eigen
+from ..util.linalg import dot_columns, symmetric_eigen
 from ..util.types import Bools, Floats, Ints
 from .octree import Crossings
 
@@ -122,16 +122,16 @@ def _meet(planes: _Planes, middle: Floats) -> Floats:
 
 def _meet_in_box(planes: _Planes, point: Floats, low: Floats, high: Floats) -> Floats:
     """The same held in a box, by coordinate descent from a point inside."""
-    matrix, pull = planes.squares(), planes.pull(point)
-    move = np.zeros_like(point)
+    # A column for every entry: numpy takes rows of three slowly.
+    matrix = np.ascontiguousarray(np.moveaxis(planes.squares(), 0, -1))
+    pull, move = np.ascontiguousarray(planes.pull(point).T), np.zeros((3, len(point)))
+    least, most = (np.ascontiguousarray((end - point).T) for end in (low, high))
+    own = [np.maximum(matrix[k, k], 1e-6) for k in range(3)]
     for _ in range(DESCENT_ROUNDS):
         for k in range(3):
-            own = np.maximum(matrix[:, k, k], 1e-6)
-            slope = pull[:, k] - np.einsum("nj,nj->n", matrix[:, k], move)
-            move[:, k] = np.clip(
-                move[:, k] + slope / own, low[:, k] - point[:, k], high[:, k] - point[:, k]
-            )
-    return point + move
+            slope = pull[k] - dot_columns(matrix[k], move)
+            move[k] = np.minimum(np.maximum(move[k] + slope / own[k], least[k]), most[k])
+    return np.asarray(point + move.T)
 
 
 @dataclass(frozen=True, eq=False)

@@ -60,7 +60,8 @@ class DepthField:
         low, high = solid.bounds
         self._start, self._cubes, self._top = cube_grid(low, high, depth.inset, cube)
         self._plain = plain
-        self._names = np.zeros(0, np.int64)
+        # By rising names, and where the values of each are.
+        self._names, self._rows = np.zeros((2, 0), np.int64)
         self._value = np.zeros(0)
         self._gradient = np.zeros((0, 3))
         # Which nodes are inside is known by the lines along z through them: the surface's
@@ -106,18 +107,19 @@ class DepthField:
 
         Below 0 inside the inner wall.
         """
-        call = self.depth.monitor.call
-        wanted = name(nodes)
-        new = call(lambda: np.unique(wanted[find(self._names, wanted) < 0]))
+        each, row = self.depth.monitor.call(lambda: np.unique(name(nodes), return_inverse=True))
+        known = find(self._names, each)
+        new = np.flatnonzero(known < 0)
         if len(new):
-            fresh = named(new)
-            value, gradient = self._values(fresh)
-            place = np.searchsorted(self._names, new)
-            self._names = np.insert(self._names, place, new)
-            self._value = np.insert(self._value, place, value)
-            self._gradient = np.insert(self._gradient, place, gradient, axis=0)
-        rows = call(lambda: find(self._names, wanted))
-        return self._value[rows], self._gradient[rows]
+            value, gradient = self._values(named(each[new]))
+            place = np.searchsorted(self._names, each[new])
+            self._names = np.insert(self._names, place, each[new])
+            self._rows = np.insert(self._rows, place, len(self._value) + np.arange(len(new)))
+            self._value = np.concatenate([self._value, value])
+            self._gradient = np.concatenate([self._gradient, gradient])
+            known = find(self._names, each)
+        row = self._rows[known][row.ravel()]
+        return self._value[row], self._gradient[row]
 
     def _values(self, nodes: Ints) -> tuple[Floats, Floats]:
         """As `Depth.values`, at nodes (n, 3)."""
@@ -180,8 +182,10 @@ class DepthField:
             a, b = value[start], value[end]
             down, up = (size * _along(gradient[node], way) for node in (start, end))
             between = (a >= 0) & (b >= 0) & (down < 0) & (up > 0)
-            share = np.clip((b - up - a) / np.where(between, down - up, 1.0), 0.0, 1.0)
-            result |= between & (a + share * down < -least)
+            rows = np.flatnonzero(between)
+            a, b, down, up = (each[rows] for each in (a, b, down, up))
+            share = np.minimum(np.maximum((b - up - a) / (down - up), 0.0), 1.0)
+            result[rows] |= a + share * down < -least
         return result, value.T < 0
 
 

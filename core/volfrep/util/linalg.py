@@ -97,23 +97,23 @@ def symmetric_eigen(matrices: Floats) -> tuple[Floats, Floats]:
     Returns:
         (n, 3) values, rising, and (n, 3, 3) unit vectors as columns.
     """
-    left = matrices.astype(float)
-    vectors = np.broadcast_to(np.eye(3), left.shape).copy()
+    # A column for every entry, (3, 3, n): numpy takes rows of three slowly.
+    left = np.ascontiguousarray(np.moveaxis(matrices, 0, -1), float)
+    turned = np.broadcast_to(np.eye(3)[:, :, None], left.shape).copy()
     for _ in range(SWEEPS):
         for i, j in ((0, 1), (0, 2), (1, 2)):
-            off = left[:, i, j]
-            gap = left[:, j, j] - left[:, i, i]
+            off = left[i, j]
+            gap = left[j, j] - left[i, i]
             room = np.hypot(gap, 2.0 * off) + np.abs(gap)
             tangent = np.where(gap < 0.0, -2.0, 2.0) * off / np.where(room > 0.0, room, 1.0)
             cosine = 1.0 / np.sqrt(1.0 + tangent**2)
-            sine = (tangent * cosine)[:, None]
-            cosine = cosine[:, None]
-            for table in (left, vectors):
-                p, q = table[:, :, i].copy(), table[:, :, j]
-                table[:, :, i], table[:, :, j] = cosine * p - sine * q, sine * p + cosine * q
-            p, q = left[:, i].copy(), left[:, j]
-            left[:, i], left[:, j] = cosine * p - sine * q, sine * p + cosine * q
-    values = np.diagonal(left, axis1=1, axis2=2)
+            sine = tangent * cosine
+            for table in (left, turned):
+                p, q = table[:, i].copy(), table[:, j]
+                table[:, i], table[:, j] = cosine * p - sine * q, sine * p + cosine * q
+            p, q = left[i].copy(), left[j]
+            left[i], left[j] = cosine * p - sine * q, sine * p + cosine * q
+    values, vectors = np.stack([left[k, k] for k in range(3)], axis=1), np.moveaxis(turned, -1, 0)
     order = np.argsort(values, axis=1, kind="stable")
     return np.take_along_axis(values, order, axis=1), np.take_along_axis(
         vectors, order[:, None, :], axis=2

@@ -13,6 +13,7 @@ from volfrep.spatial.proximity import (
     closest_points,
     index_surface,
     neighbours,
+    neighbours_together,
 )
 from volfrep.util.errors import VolfrepError
 from volfrep.util.threads import use_threads
@@ -112,6 +113,15 @@ def test_the_fast_distance_of_a_point_depends_on_no_other_and_on_no_threads():
     assert np.array_equal(again, closest[order])
     assert np.array_equal(shuffled, distance[order])
     assert index.near(points[:0])[0].shape == (0, 3)
+
+
+def test_neighbours_come_together_and_equal_points_in_their_order():
+    points = np.random.default_rng(2).random((4000, 3))
+    order = neighbours_together(points)
+    np.testing.assert_array_equal(np.sort(order), np.arange(4000))
+    steps = np.linalg.norm(np.diff(points[order], axis=0), axis=1)
+    assert steps.mean() < 0.12, "two of them at random are 0.66 apart"
+    np.testing.assert_array_equal(neighbours_together(np.ones((9, 3))), np.arange(9))
 
 
 def test_distances_within_a_reach_are_those_of_any_reach():

@@ -32,7 +32,8 @@ from .thickness_field import STEEPEST, ThicknessField
 
 #: Points of one step between two looks at the cancel button.
 POINTS_PER_STEP = 40_000
-#: Points that a worker is asked for at a time; what is no more is looked up here.
+#: Points that a worker is asked for at a time, and a quarter of these where they are few; what is
+#: no more is looked up here.
 POINTS_PER_CALL = 1 << 11
 #: How far the cavity reaches beyond the open faces, in thicknesses of the skin.
 BEYOND = 0.5
@@ -59,13 +60,14 @@ class Depth:
     def nearest(self, points: Floats) -> tuple[Floats, Floats]:
         """(n, 3) closest points of the outer surface and (n,) distances, not signed, mm."""
         parts, shared = [], self.shared
-        if shared is None or len(points) <= POINTS_PER_CALL:
+        step = min(POINTS_PER_CALL, max(len(points), POINTS_PER_CALL) // 4)
+        if shared is None or len(points) <= step:
             for start in range(0, len(points), POINTS_PER_STEP):
                 self.monitor.tick()
                 parts.append(self.index.near(points[start : start + POINTS_PER_STEP]))
         else:
-            starts = range(0, len(points), POINTS_PER_CALL)
-            given = ((shared, points[start : start + POINTS_PER_CALL]) for start in starts)
+            starts = range(0, len(points), step)
+            given = ((shared, points[start : start + step]) for start in starts)
             for found in self.monitor.backend.starmap(near_shared, given):
                 self.monitor.tick()
                 parts.append(found)

@@ -499,6 +499,7 @@ def sharing_index(index: SurfaceIndex, backend: ParallelBackend) -> Iterator[Sha
     with backend.sharing(*arrays) as (corners, across, samples, triangles):
         shared = SharedIndex(corners, across, samples, triangles, index.spacing)
         _opened[shared] = index  # for calls that this process makes itself
+        backend.begun(_open_ahead, shared)
         try:
             yield shared
         finally:
@@ -507,7 +508,16 @@ def sharing_index(index: SurfaceIndex, backend: ParallelBackend) -> Iterator[Sha
 
 def near_shared(shared: SharedIndex, points: Floats) -> tuple[Floats, Floats]:
     """As `SurfaceIndex.near`."""
-    return (_opened.get(shared) or _open_index(shared)).near(points)
+    return _index_of(shared).near(points)
+
+
+def _index_of(shared: SharedIndex) -> SurfaceIndex:
+    return _opened.get(shared) or _open_index(shared)
+
+
+def _open_ahead(shared: SharedIndex) -> None:
+    """Make the index, before points are asked for."""
+    _index_of(shared)
 
 
 @lru_cache(maxsize=1)

@@ -2,10 +2,14 @@
 """The command as a process: its streams may be closed or full, and Ctrl-C may come at any time.
 
 Nothing but the standard library is imported here: it is in force before anything else is read.
+
+As it ends Python would look in all that there is for objects that hold each other; the system takes
+a process's memory as a whole.
 """
 
 from __future__ import annotations
 
+import gc
 import io
 import os
 import signal
@@ -58,6 +62,7 @@ def leave(code: int) -> None:
     if code == EXIT_INTERRUPTED:
         # A compiled call may still be busy on a thread: an ordinary exit would wait for it.
         os._exit(code)
+    gc.freeze()  # so that it is not looked through for objects that hold each other
     sys.exit(code)
 
 

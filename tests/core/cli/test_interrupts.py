@@ -33,9 +33,34 @@ sys.meta_path.insert(0, Finder())
 command.main()
 """
 
+#: A command that leaves two objects that hold each other, and something to be done at the end.
+LEAVING = """
+import atexit
+from volfrep.cli import interrupts
+
+class Holder:
+    def __del__(self):
+        print("looked for")
+
+interrupts.prepare()
+atexit.register(print, "done at the end")
+one, other = Holder(), Holder()
+one.other, other.one = other, one
+del one, other
+interrupts.leave(3)
+"""
+
 
 def run(arguments, folder, **streams):
     return subprocess.run([*COMMAND, *arguments], cwd=folder, check=False, **streams)
+
+
+def test_a_command_ends_at_once_and_does_what_is_left_to_do() -> None:
+    left = subprocess.run(
+        [sys.executable, "-c", LEAVING], capture_output=True, text=True, check=False
+    )
+    assert left.stdout.split("\n") == ["done at the end", ""], left.stderr
+    assert left.returncode == 3
 
 
 @pytest.mark.costly

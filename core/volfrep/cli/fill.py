@@ -92,7 +92,7 @@ def run_fill(given: argparse.Namespace) -> None:
 
 def _fill_part(options: FillOptions, first: HeadStart) -> None:
     """Read a part, which `first` may be started for, and fill it."""
-    from ..jobs.workers import worth_head_start, worth_processes
+    from ..jobs.workers import worth_head_start, worth_processes, worth_untold
 
     spec, meshed = options.spec, options.form.meshed
     asked = options.workers is not None or options.scheduler is not None or bool(options.limits)
@@ -118,13 +118,16 @@ def _fill_part(options: FillOptions, first: HeadStart) -> None:
     rough = lattice_kind(spec).roughly_solved(solid)
     if meshed and spec.output != "domain":
         rough.kind.refuse_crossing()
-    expected = forecast_fill(solid, rough, streamed=options.is_file_alone)
-    if not options.quiet:
+    worth = 1
+    if options.quiet and meshed:
+        worth = worth_untold(rough, solid, streamed=options.is_file_alone)
+    elif not options.quiet:
+        expected = forecast_fill(solid, rough, streamed=options.is_file_alone)
+        worth = worth_processes(spec, expected) if meshed else 1
         told = str(expected) if meshed else expected.of_axes
         if options.form.is_beams_alone:
             told = str(forecast_fill_beams(solid, rough))
         print(f"Expected: {told}.", flush=True)
-    worth = worth_processes(spec, expected) if meshed else 1
     with _workers(options, worth, first) as executor, drawn(options.quiet) as progress:
         made = solve_target(
             solid, spec, progress=progress, meshed=meshed, executor=executor,

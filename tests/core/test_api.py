@@ -82,7 +82,7 @@ def test_workers_of_a_fill_stay_for_the_next_one_and_the_mesh_is_the_same(
         assert kept.elsewhere(int).result() == 0
     assert alone.report.workers_memory_mb == 0
     for count in (2, None):
-        monkeypatch.setattr(workers, "worth_processes", lambda *_: 2)
+        monkeypatch.setattr(workers, "worth_untold", lambda *_, **__: 2)
         one = volfrep.fill(samples.box(), cache=part.cache, workers=count, **BOX)
         assert one.result.mesh.vertices.tobytes() == alone.result.mesh.vertices.tobytes()
         assert one.result.mesh.triangles.tobytes() == alone.result.mesh.triangles.tobytes()

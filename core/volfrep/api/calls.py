@@ -163,16 +163,14 @@ def _workers(
     if executor is not None:
         yield executor
         return
-    from ..jobs.workers import kept_workers, worth_processes
+    from ..jobs.workers import kept_workers, worth_untold
 
     if count is None:
         count = 1
         if threads() > 1:
-            from ..design.forecast import forecast_fill
             from ..jobs.kinds import lattice_kind
 
-            rough = lattice_kind(spec).roughly_solved(solid)
-            count = worth_processes(spec, forecast_fill(solid, rough))
+            count = worth_untold(lattice_kind(spec).roughly_solved(solid), solid, streamed=False)
     with kept_workers(count) as kept:
         yield kept
 

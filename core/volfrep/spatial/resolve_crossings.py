@@ -13,7 +13,7 @@ is looked at then (`Looks`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -29,7 +29,7 @@ from ..mesh.topology import (
     touching,
     vertices_of,
 )
-from ..mesh.triangle_mesh import TriangleMesh, compact, corners_at, triangle_boxes
+from ..mesh.triangle_mesh import TriangleMesh, compact, concatenate, corners_at, triangle_boxes
 from ..util.linalg import cross_columns, normalize
 from ..util.parallel import ParallelBackend
 from ..util.progress import Monitor
@@ -118,15 +118,22 @@ class Looks:
         """The same, of some of the triangles."""
         return Looks(self.marks[rows], self.step)
 
-    def elsewhere(self, mesh: TriangleMesh) -> Looks:
-        """The same, of a part that was moved: a file rounds it otherwise there."""
+    def elsewhere(self, moved: Sequence[TriangleMesh]) -> list[Looks]:
+        """The same, of parts that were moved: a file rounds them otherwise there."""
         used = np.unique(self.close)
-        part = compact(TriangleMesh(mesh.vertices, mesh.triangles[used]))
-        crossing = crossing_in_files(part, np.searchsorted(used, self.close), self.step)
-        marks = self.marks.copy()
-        marks[used] |= APART
-        marks[used[crossing]] &= ~np.uint8(APART)
-        return Looks(marks, self.step)
+        close = np.searchsorted(used, self.close)
+        parts = [compact(TriangleMesh(mesh.vertices, mesh.triangles[used])) for mesh in moved]
+        begin = len(used) * np.arange(len(parts))
+        every = (begin[:, None, None] + close).reshape(-1, 2)
+        crossing = crossing_in_files(concatenate(*parts), every, self.step)
+        of, row = np.divmod(crossing, max(len(used), 1))
+        result = []
+        for number in range(len(parts)):
+            marks = self.marks.copy()
+            marks[used] |= APART
+            marks[used[row[of == number]]] &= ~np.uint8(APART)
+            result.append(Looks(marks, self.step))
+        return result
 
     def padded(self, before: int, after: int) -> Looks:
         """The same, with so many triangles before and after them of which nothing is known."""

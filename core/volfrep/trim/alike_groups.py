@@ -10,8 +10,8 @@ nothing is moved: what lies in one plane stays in it to the last bit.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -20,7 +20,9 @@ from ..lattice.placed_octants import Placed
 from ..mesh import remesh
 from ..mesh.open_shells import OpenShells
 from ..mesh.triangle_mesh import TriangleMesh, corners_at
+from ..util.content import content_of
 from ..util.linalg import along
+from ..util.parallel import ParallelBackend, SharedValue
 from ..util.types import Bools, Floats, Ints
 from .group_cut import Group, Piece
 from .octant_groups import Groups
@@ -28,6 +30,8 @@ from .trimmed_surface import equal_rows
 
 #: Walls are alike that differ by less than this, in units of L: rounding.
 ALIKE = 1e-8
+#: Groups that are looked at in one call.
+CALL_GROUPS = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,9 +46,9 @@ class Alike:
 
     placed: Placed
     both: Bools
-    others: list[tuple[int, Ints]] = field(default_factory=list)
+    others: list[tuple[int, Ints]]
 
-    def copies(self, piece: Piece) -> Iterator[tuple[int, Piece]]:
+    def copies(self, piece: Piece) -> list[tuple[int, Piece]]:
         """What is left of the others, by their numbers, where this is left of the group."""
         layout, motion, mesh = self.placed.layout, self.placed.motion, piece.mesh
         corner, steps = self._on_faces()
@@ -52,6 +56,7 @@ class Alike:
         rim, row = piece.rim[row >= 0], row[row >= 0]
         corner, steps = corner[row], steps[row]
         normal = None if piece.shells is None else _normals(mesh, piece.shells)
+        copies = []
         for other, first in self.others:
             shift = (first - layout.first) * layout.grid.cell_size
             vertices = mesh.vertices + shift
@@ -60,8 +65,14 @@ class Alike:
             if shells is not None and normal is not None:
                 shells = replace(shells, volume=shells.volume + along(normal, shift) / 3.0)
             moved = TriangleMesh(vertices, mesh.triangles)
-            looks = piece.looks and piece.looks.elsewhere(moved)
-            yield other, replace(piece, mesh=moved, work={}, looks=looks, shells=shells)
+            copies.append((other, replace(piece, mesh=moved, work={}, shells=shells)))
+        if piece.looks is None:
+            return copies
+        looks = piece.looks.elsewhere([copy.mesh for _, copy in copies])
+        return [
+            (other, replace(copy, looks=known))
+            for (other, copy), known in zip(copies, looks, strict=True)
+        ]
 
     def _on_faces(self) -> tuple[Ints, Floats]:
         """(n, 3) corners of the grid, and (n, 3) steps from these to vertices on octants' faces."""
@@ -77,27 +88,47 @@ class Alike:
         return corners, steps
 
 
-def find_alike(groups: Groups, which: Ints, cavity: bool) -> dict[int, Alike]:
+def find_alike(
+    groups: Groups,
+    which: Ints,
+    cavity: bool,
+    shared: SharedValue[Groups],
+    backend: ParallelBackend,
+) -> dict[int, Alike]:
     """The first ones of groups that are cut alike, by their numbers.
 
     Args:
         groups: all of them.
         which: those that are to be cut.
         cavity: as of a `Group`.
+        shared: the same groups, for calls.
+        backend: makes these.
     """
-    found: dict[bytes, tuple[int, Alike]] = {}
-    for number in which[groups.repeats[which]].tolist():
-        group = groups.group(number, cavity)
-        key = _key(group)
-        if key in found:
-            found[key][1].others.append((number, group.placed.layout.first))
-        else:
-            found[key] = number, Alike(group.placed, group.own | group.adjacent)
-    return {number: alike for number, alike in found.values() if alike.others}
+    some = which[groups.repeats[which]]
+    calls = ((shared, some[k : k + CALL_GROUPS], cavity) for k in range(0, len(some), CALL_GROUPS))
+    found: dict[bytes, list[tuple[int, Ints]]] = {}
+    keys = chain.from_iterable(backend.starmap(alike_keys, calls))
+    for number, (key, first) in zip(some.tolist(), keys, strict=True):
+        found.setdefault(key, []).append((number, first))
+    result = {}
+    for (number, _), *others in found.values():
+        if others:
+            group = groups.group(number, cavity)
+            result[number] = Alike(group.placed, group.own | group.adjacent, others)
+    return result
+
+
+def alike_keys(groups: SharedValue[Groups], which: Ints, cavity: bool) -> list[tuple[bytes, Ints]]:
+    """Of some groups, what is the same for those that are cut alike; and where they begin."""
+    result = []
+    for number in which.tolist():
+        group = groups.value.group(number, cavity)
+        result.append((_key(group), group.placed.layout.first))
+    return result
 
 
 def _key(group: Group) -> bytes:
-    """The same for groups that are cut alike."""
+    """The same for groups that are cut alike, in a few bytes."""
     layout = group.placed.layout
     grid, length = layout.grid, layout.grid.cell_size
     corner = group.placed.motion(grid.origin + layout.first * length)
@@ -105,12 +136,11 @@ def _key(group: Group) -> bytes:
     corners = corners_at(group.boundary.vertices, group.boundary.triangles)
     level = corners.max(axis=1) == corners.min(axis=1)
     heights = [np.unique(corners[level[:, axis], 0, axis]) for axis in range(3)]
-    parts = (
-        np.array([len(each) for each in heights]), *heights,
-        np.array(grid.kind.shape), grid.kind, group.own, group.adjacent, group.follow, at,
+    keys = np.array(repr(grid.keys).encode())
+    return content_of(
+        keys, *heights, grid.kind, group.own, group.adjacent, group.follow, at,
         group.boundary.triangles, group.own_boundary,
     )  # fmt: skip
-    return b"".join([repr(grid.keys).encode(), *(part.tobytes() for part in parts)])
 
 
 def _normals(mesh: TriangleMesh, shells: OpenShells) -> Floats:

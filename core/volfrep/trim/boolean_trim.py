@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -181,39 +180,41 @@ def _cut(
     found: dict[int, Piece] = {}
     copied: dict[int, Alike] = {}
     if groups.count > 1:  # few are not certain where the wall is open, mostly none
-        copied = find_alike(groups, which, cavity)
-        others = [k for alike in copied.values() for k, _ in alike.others]
-        which = np.setdiff1d(which, np.array(others, np.int64))
-        with _open_cuts(groups, which, cavity, executor) as cuts:
+        backend = backend_of(executor if len(which) > 1 else None)
+        given = groups.to_share() if backend.uses_processes else groups
+        with backend.sharing_value(given) as shared:
+            copied = find_alike(groups, which, cavity, shared, backend)
+            others = [k for alike in copied.values() for k, _ in alike.others]
+            which = np.setdiff1d(which, np.array(others, np.int64))
+            cuts = _open_cuts(groups, which, cavity, shared, executor)
             found.update(_cut_each(cuts, len(which), executor, monitor))
         which = np.array([k for k in which if found[k].needs_solid], np.int64)
         if len(which):
             monitor.count("groups cut again at a solid wall", len(which))
     if len(which):
         solids = groups.with_solids(which, cavity, monitor)
-        given = ((k, partial(cut_group, group)) for k, group in solids)
-        found.update(_cut_each(given, len(which), executor, monitor))
+        closed = ((k, partial(cut_group, group)) for k, group in solids)
+        found.update(_cut_each(closed, len(which), executor, monitor))
     for number, alike in copied.items():
         found.update(alike.copies(found[number]))
         monitor.count("groups copied", len(alike.others))
     return found
 
 
-@contextmanager
 def _open_cuts(
-    groups: Groups, which: Ints, cavity: bool, executor: Executor | None
-) -> Iterator[Iterator[tuple[int, Cut]]]:
+    groups: Groups,
+    which: Ints,
+    cavity: bool,
+    shared: SharedValue[Groups],
+    executor: Executor | None,
+) -> Iterator[tuple[int, Cut]]:
     """Cuts of numbered groups at open walls; each group is made where it is cut.
 
     For processes of other machines it is made here.
     """
     if not (executor is None or isinstance(executor, ThreadPoolExecutor)):
-        yield ((int(k), partial(cut_group, groups.group(int(k), cavity))) for k in which)
-        return
-    backend = backend_of(executor if len(which) > 1 else None)
-    given = groups.to_share() if backend.uses_processes else groups
-    with backend.sharing_value(given) as shared:
-        yield ((int(k), partial(cut_one, shared, int(k), cavity)) for k in which)
+        return ((int(k), partial(cut_group, groups.group(int(k), cavity))) for k in which)
+    return ((int(k), partial(cut_one, shared, int(k), cavity)) for k in which)
 
 
 def cut_one(

@@ -30,6 +30,9 @@ SHIFT = (0.3719, 0.2893)
 FLAT = 1e-9
 #: A face has at least so many squares, or it stays as it is.
 FEWEST = 64
+#: Tiles have at least this part of the wall's area, or it stays as it is: to find out what is alike
+#: would take longer than to cut it.
+LEAST_SHARE = 1 / 3
 #: Borders are sampled at this part of an octant's edge.
 SAMPLE = 0.25
 #: So many octants along tiles' sides, largest first: each is a whole number of cells, of which
@@ -96,7 +99,7 @@ class Tiles:
 
 
 def with_squares(boundary: TriangleMesh, corner: Floats, edge: float) -> FlatWall | None:
-    """A wall with squares on its flat faces; None where none has tiles that may be alike.
+    """A wall with squares on its flat faces; None where little of it has tiles that may be alike.
 
     Args:
         boundary: closed mesh, mm.
@@ -197,6 +200,8 @@ def _tiles_of(squares: Ints) -> tuple[Ints, Ints]:
 def _flat_faces(mesh: TriangleMesh, corner: Floats, edge: float) -> list[Face]:
     corners = corners_at(mesh.vertices, mesh.triangles)
     normal = remesh.normals(corners)
+    twice = np.linalg.norm(normal, axis=1)
+    least = LEAST_SHARE * twice.sum() / 2.0
     result = []
     for axis in range(3):
         height = corners[:, :, axis]
@@ -207,8 +212,7 @@ def _flat_faces(mesh: TriangleMesh, corner: Floats, edge: float) -> list[Face]:
             for turned in (False, True):
                 rows = np.sort(plane[(normal[plane, axis] < 0) == turned])
                 along = [(axis + 1) % 3, (axis + 2) % 3][:: -1 if turned else 1]
-                size = np.linalg.norm(normal[rows], axis=1).sum() / 2.0
-                if size < FEWEST * edge**2:
+                if twice[rows].sum() / 2.0 < FEWEST * edge**2:
                     continue
                 squares = _squares_within(mesh, rows, along, corner, edge)
                 if len(squares) < FEWEST:
@@ -218,7 +222,8 @@ def _flat_faces(mesh: TriangleMesh, corner: Floats, edge: float) -> list[Face]:
                     # One that there is: a mean of equal numbers may differ from them.
                     level = float(np.sort(height[rows, 0])[len(rows) // 2])
                     result.append(Face((axis, along[0], along[1]), level, squares, first, label))
-    return result
+    tiled = sum(int((face.tile >= 0).sum()) for face in result)
+    return result if tiled * edge**2 >= least else []
 
 
 def _open_sides(polygons: NDArray[Any], count: int) -> Ints:

@@ -17,8 +17,14 @@ from volfrep.mesh.booleans import as_mesh
 from volfrep.mesh.float32_repair import shortest_edge
 from volfrep.spatial.piercing import piercing_pairs
 from volfrep.spatial.resolve_crossings import folds_of
-from volfrep.trim import alike_groups, boolean_trim, octant_groups
+from volfrep.trim import alike_groups, boolean_trim, flat_walls, octant_groups
 from volfrep.util.progress import Monitor
+
+
+@pytest.fixture(autouse=True)
+def _tiles_welcome(monkeypatch):
+    """However little of a wall they are."""
+    monkeypatch.setattr(flat_walls, "LEAST_SHARE", 0.0)
 
 
 @pytest.fixture
@@ -83,17 +89,17 @@ def test_a_copy_is_what_a_cut_of_its_group_leaves(small_groups, monkeypatch):
     """Where octants follow and where they are looked for by equal numbers, to the last bit."""
     copied, taken, real = {}, {}, boolean_trim.find_alike
 
-    def noted(groups, which, cavity):
-        found = real(groups, which, cavity)
+    def noted(groups, which, cavity, *calls):
+        found = real(groups, which, cavity, *calls)
         taken.update(
             {k: groups.group(k, cavity) for each in found.values() for k, _ in each.others}
         )
         return found
 
     def copies(self, piece):
-        for number, copy in every(self, piece):
-            copied[number] = copy
-            yield number, copy
+        found = every(self, piece)
+        copied.update(found)
+        return found
 
     every = alike_groups.Alike.copies
     monkeypatch.setattr(boolean_trim, "find_alike", noted)

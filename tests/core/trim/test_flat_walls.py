@@ -7,12 +7,20 @@ import pytest
 import trimesh
 
 import samples
+from volfrep.mesh import quality
 from volfrep.mesh.booleans import as_mesh
 from volfrep.spatial.rays import inside_points
+from volfrep.trim import flat_walls
 from volfrep.trim.flat_walls import ABOUT, TILES, tile, with_squares
 from volfrep.util.progress import Monitor
 
 CORNER, EDGE = np.array([-1.3, 0.21, -0.7]), 1.1
+
+
+@pytest.fixture
+def tiles_welcome(monkeypatch):
+    """However little of a wall they are."""
+    monkeypatch.setattr(flat_walls, "LEAST_SHARE", 0.0)
 
 
 def plate():
@@ -29,7 +37,7 @@ def judged(mesh):
     return result
 
 
-def test_a_wall_with_squares_is_the_same_wall():
+def test_a_wall_with_squares_is_the_same_wall(tiles_welcome):
     solid = plate()
     wall = with_squares(solid, CORNER, EDGE)
     before, after = judged(solid), judged(wall.mesh)
@@ -48,7 +56,7 @@ def test_a_wall_with_squares_is_the_same_wall():
     assert not inside_points(solid, middle + 1e-3 * across, Monitor()).any()
 
 
-def test_a_tile_has_squares_all_about_it():
+def test_a_tile_has_squares_all_about_it(tiles_welcome):
     wall = with_squares(plate(), CORNER, EDGE)
     places = np.stack(np.meshgrid(*(np.arange(-1, 50),) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     low = CORNER + EDGE * places
@@ -75,8 +83,16 @@ def test_a_tile_has_squares_all_about_it():
         assert (np.abs(mine[:, axis] + 0.5 - height) < 0.51).all()
 
 
-def test_round_and_turned_walls_have_none():
+def test_round_and_turned_walls_have_none(tiles_welcome):
     assert with_squares(samples.sphere(20.0), CORNER, EDGE) is None
     turned = as_mesh(manifold3d.Manifold.cube((40.0, 40.0, 40.0)).rotate((10.0, 20.0, 30.0)))
     assert with_squares(turned, CORNER, EDGE) is None
     assert with_squares(samples.box((6.0, 6.0, 6.0)), CORNER, EDGE) is None
+
+
+def test_a_wall_that_would_hardly_repeat_stays_as_it_is():
+    """A seventh of a small plate's area is in tiles, more than half of a large one's."""
+    assert with_squares(plate(), CORNER, EDGE) is None
+    large = with_squares(samples.box((120.0, 100.0, 9.0)), CORNER, EDGE)
+    tiled = sum((face.tile >= 0).sum() for face in large.faces)
+    assert tiled * EDGE**2 > 0.5 * quality.measure(large.mesh).area

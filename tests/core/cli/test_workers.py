@@ -23,6 +23,7 @@ import volfrep
 from clusters import WORKERS, worker
 from clusters import cluster as cluster
 from volfrep import LatticeSpec, VolfrepError
+from volfrep.design import forecast
 from volfrep.io.solid import check_solid, read_solid
 from volfrep.io.write.stl import write_stl
 from volfrep.jobs import workers as fill_workers
@@ -80,7 +81,22 @@ def test_others_help_where_the_job_is_worth_it_or_they_are_asked_for(
         monkeypatch.setattr(fill_workers, "WORTH_WORKER", worth)
         assert fill(part, tmp_path / "out.stl", "--quiet", "--cell-size", 12, *given) == 2
     modules = fill_workers.MODULES
-    assert asked == [(1, (), True), (3, (), False), (5, modules, True), (3, modules, False)]
+    told = (3, modules, False)  # whatever it is worth
+    assert asked == [(1, (), True), told, (5, modules, True), told]
+
+
+def test_a_quiet_fill_with_so_many_workers_is_not_foretold(
+    tmp_path: Path, part: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def foretold(*given: object, **named: object) -> NoReturn:
+        raise VolfrepError("It is foretold.")
+
+    monkeypatch.setattr(forecast, "forecast_fill", foretold)
+    monkeypatch.setattr(fill_workers, "FEW_TRIANGLES", 0)
+    out = tmp_path / "out.stl"
+    assert fill(part, out, "--quiet") == 2
+    assert fill(part, out, "--quiet", "--workers", 2) == 0
+    assert out.stat().st_size > 10_000
 
 
 def test_one_starts_early_where_a_part_is_large_enough_and_nothing_else_is_asked_for(

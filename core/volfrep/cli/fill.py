@@ -118,12 +118,13 @@ def _fill_part(options: FillOptions, first: HeadStart) -> None:
     rough = lattice_kind(spec).roughly_solved(solid)
     if meshed and spec.output != "domain":
         rough.kind.refuse_crossing()
-    worth = options.workers or 1
-    if options.quiet and meshed and not asked:
+    is_counted = meshed and not asked
+    worth = (options.workers or 1) if meshed else 1
+    if options.quiet and is_counted:
         worth = worth_untold(rough, solid, streamed=options.is_file_alone)
     elif not options.quiet:
         expected = forecast_fill(solid, rough, streamed=options.is_file_alone)
-        if meshed and not asked:
+        if is_counted:
             worth = worth_processes(spec, expected)
         told = str(expected) if meshed else expected.of_axes
         if options.form.is_beams_alone:

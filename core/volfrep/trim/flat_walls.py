@@ -200,8 +200,7 @@ def _tiles_of(squares: Ints) -> tuple[Ints, Ints]:
 def _flat_faces(mesh: TriangleMesh, corner: Floats, edge: float) -> list[Face]:
     corners = corners_at(mesh.vertices, mesh.triangles)
     normal = remesh.normals(corners)
-    twice = np.linalg.norm(normal, axis=1)
-    least = LEAST_SHARE * twice.sum() / 2.0
+    area = 0.5 * np.linalg.norm(normal, axis=1)
     result = []
     for axis in range(3):
         height = corners[:, :, axis]
@@ -212,7 +211,7 @@ def _flat_faces(mesh: TriangleMesh, corner: Floats, edge: float) -> list[Face]:
             for turned in (False, True):
                 rows = np.sort(plane[(normal[plane, axis] < 0) == turned])
                 along = [(axis + 1) % 3, (axis + 2) % 3][:: -1 if turned else 1]
-                if twice[rows].sum() / 2.0 < FEWEST * edge**2:
+                if area[rows].sum() < FEWEST * edge**2:
                     continue
                 squares = _squares_within(mesh, rows, along, corner, edge)
                 if len(squares) < FEWEST:
@@ -223,7 +222,7 @@ def _flat_faces(mesh: TriangleMesh, corner: Floats, edge: float) -> list[Face]:
                     level = float(np.sort(height[rows, 0])[len(rows) // 2])
                     result.append(Face((axis, along[0], along[1]), level, squares, first, label))
     tiled = sum(int((face.tile >= 0).sum()) for face in result)
-    return result if tiled * edge**2 >= least else []
+    return result if tiled * edge**2 >= LEAST_SHARE * area.sum() else []
 
 
 def _open_sides(polygons: NDArray[Any], count: int) -> Ints:

@@ -18,7 +18,7 @@ import numpy as np
 from ..util.linalg import cross_columns, lengths, normalize
 from ..util.ragged import rows_of
 from ..util.types import Bools, Floats, Ints
-from .topology import among_edges, corners_among, edge_keys, vertices_of
+from .topology import among_edges, edge_keys
 from .triangle_mesh import TriangleMesh, corners_at
 
 #: A triangle may not turn by more than this (cosine) when a neighbour is collapsed or flipped.
@@ -389,40 +389,46 @@ def split(
     count = len(vertices)
     among = np.arange(len(triangles)) if among is None else among
     table = edges(triangles[among], count)
-    inner = table.triangles[:, 1] >= 0
+    inner = np.flatnonzero(table.triangles[:, 1] >= 0)
     ends = table.ends[inner]
-    chosen = wanted(ends[:, 0], ends[:, 1])
-    todo, rows = ends[chosen], among[np.unique(table.triangles[inner][chosen])]
-    middle = 0.5 * (vertices[todo[:, 0]] + vertices[todo[:, 1]])
-    vertices = np.concatenate([vertices, middle])
-    fresh = np.arange(count, len(vertices))
+    chosen = inner[wanted(ends[:, 0], ends[:, 1])]
+    todo, corner = table.ends[chosen], table.opposite[chosen]
+    beside = among[table.triangles[chosen]]
+    vertices = np.concatenate([vertices, 0.5 * (vertices[todo[:, 0]] + vertices[todo[:, 1]])])
+    fresh, after = np.arange(count, len(vertices)), len(triangles)
+    triangles = np.concatenate([triangles, np.zeros((2 * len(todo), 3), triangles.dtype)])
+    # Which side of each of its two triangles an edge is.
+    side = (triangles[beside] == todo[:, :, None]).argmax(axis=2)
+    first = np.zeros(len(triangles), np.int64)
     while len(todo):
-        # Each triangle takes one split at a time; the others wait for the next round. Only the
-        # triangles at edges that are to be split, and what became of them, are looked at.
-        table = edges(triangles[rows], len(vertices))
-        key = edge_keys(table.ends[:, 0], table.ends[:, 1], len(vertices))
-        want = edge_keys(todo[:, 0], todo[:, 1], len(vertices))
-        order = np.argsort(key)
-        found = order[np.searchsorted(key[order], want)]
-        pair = rows[table.triangles[found]]
-        first = np.full(len(triangles), len(todo))
-        for side in (0, 1):
-            np.minimum.at(first, pair[:, side], np.arange(len(todo)))
-        now = (first[pair] == np.arange(len(todo))[:, None]).all(axis=1)
-        edge, corner, pair = table.ends[found[now]], table.opposite[found[now]], pair[now]
-        new = fresh[now]
-        triangles = triangles.copy()
-        triangles[pair[:, 0]] = np.stack([edge[:, 0], new, corner[:, 0]], axis=1)
-        triangles[pair[:, 1]] = np.stack([edge[:, 1], new, corner[:, 1]], axis=1)
-        triangles = np.concatenate(
-            [
-                triangles,
-                np.stack([new, edge[:, 1], corner[:, 0]], axis=1),
-                np.stack([new, edge[:, 0], corner[:, 1]], axis=1),
-            ]
+        # Ends as the triangle runs through them whose side comes first, as in a table of all edges.
+        turned = np.flatnonzero(
+            (side[:, 1] < side[:, 0]) | ((side[:, 1] == side[:, 0]) & (beside[:, 1] < beside[:, 0]))
         )
-        rows = np.concatenate([rows, np.arange(len(triangles) - 2 * len(new), len(triangles))])
-        todo, fresh = todo[~now], fresh[~now]
-        left = vertices_of(todo, len(vertices))
-        rows = rows[corners_among(left, triangles[rows]) > 1]
+        for each in (todo, corner, beside, side):
+            each[turned] = each[turned, ::-1]
+        # Each triangle takes one split at a time; the others wait for the next round.
+        rank = np.arange(len(todo))
+        first[beside] = len(todo)
+        for k in (0, 1):
+            np.minimum.at(first, beside[:, k], rank)
+        now = (first[beside] == rank[:, None]).all(axis=1)
+        begin, end, other = todo, todo[:, ::-1], after + np.zeros_like(beside)
+        other[now] += np.arange(2 * now.sum()).reshape(2, -1).T
+        after += 2 * int(now.sum())
+        for k in (0, 1):
+            cut, half = beside[now, k], other[now, k]
+            triangles[cut] = np.stack([begin[now, k], fresh[now], corner[now, k]], axis=1)
+            triangles[half] = np.stack([fresh[now], end[now, k], corner[now, k]], axis=1)
+        # An edge that waits is a side of what was cut off its triangle where it has that end.
+        wait = ~now
+        by = first[beside[wait]]
+        which = (beside[by, 1] == beside[wait]).astype(np.int64)
+        moved = now[by] & (todo[wait][:, :, None] == end[by, which][:, None]).any(axis=1)
+        side[wait] = np.where(now[by], np.where(moved, 1, 2), side[wait])
+        corner[wait] = np.where(now[by], fresh[by], corner[wait])
+        beside[wait] = np.where(moved, other[by, which], beside[wait])
+        todo, fresh, corner, beside, side = (
+            each[wait] for each in (todo, fresh, corner, beside, side)
+        )
     return vertices, triangles

@@ -53,6 +53,10 @@ class PinnedMesh:
         result: Bools = self.place != 1
         return result
 
+    def facets_of(self, piece: int) -> int:
+        """How many facets one of the octants has."""
+        return int((self.piece[self.triangles[:, 0]] == piece).sum())
+
     def share_face(self, one: Ints, two: Ints) -> Bools:
         """Whether vertices lie on a common face of their octant."""
         result: Bools = ((self.place[one] == self.place[two]) & self.pinned[one]).any(axis=1)

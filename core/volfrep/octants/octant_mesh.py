@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import hashlib
 import itertools
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from enum import Enum
 from functools import reduce
@@ -29,6 +30,7 @@ from .constrained_mesh import Meshed, Surface
 from .exchanged_axes import Axes, copies, forms, orders_between, values_at_facets
 from .isotropic_remesh import remesh_evenly
 from .octant import (
+    ALL_ACTIVE,
     Octant,
     OctantKey,
     octant_primitives,
@@ -76,10 +78,26 @@ STALLED, NEARER = 8, 0.95
 SHARPEST = 0.088
 EASED = 2
 FARTHER = 2.0
+#: An octant whose facets become so many times as many as they are divided had most of them stray a
+#: little, as where a row too few runs round a strut: edges so many times smaller are tried then,
+#: which have to do with so much fewer.
+MANY_DIVIDED = 1.4
+SMALLER = 1.05, 1.1
+FEWER = 0.9
+#: One of a lattice without end.
+ENDLESS = OctantKey(0, ALL_ACTIVE)
 
 
 class FacetsCross(VolfrepError):
     """Facets of an octant run through each other, whatever is done about it."""
+
+
+class _TooMany(Exception):
+    """An octant comes to more facets than are wanted: to `count`."""
+
+    def __init__(self, count: int) -> None:
+        super().__init__(count)
+        self.count = count
 
 
 class _Manner(Enum):
@@ -105,10 +123,43 @@ def mesh_octants(
     Struts that an octant has and another one lacks are often hidden in its joints: octants whose
     surfaces are the same, or are so with their axes exchanged, are meshed once.
 
+    All have edges a little smaller than wanted where an octant of a lattice without end, if that is
+    among them, keeps the deviation with fewer facets then.
+
     Raises:
         FacetsCross: there is an octant whose facets run through each other, however it is meshed.
     """
     spec = sampled_finely_enough(cell, spec)
+    try:
+        return _mesh_kinds(cell, spec, keys, monitor, lambda even: MANY_DIVIDED * even)
+    except _TooMany as many:
+        most = FEWER * many.count
+    for times in SMALLER:
+        facets = math.ceil(times * spec.facets)
+        smaller = replace(spec, facets=facets, within=spec.facets)
+        try:
+            return _mesh_kinds(cell, smaller, keys, monitor, lambda _: most)
+        except (_TooMany, FacetsCross):
+            continue
+    return _mesh_kinds(cell, spec, keys, monitor)
+
+
+def _mesh_kinds(
+    cell: UnitCell,
+    spec: OctantSpec,
+    keys: Sequence[OctantKey],
+    monitor: Monitor,
+    most: Callable[[int], float] | None = None,
+) -> dict[OctantKey, Octant]:
+    """As `mesh_octants`, with edges as wanted.
+
+    Of the facets that an octant of a lattice without end has before any are divided `most` tells
+    how many they may become.
+
+    Raises:
+        FacetsCross: as there.
+        _TooMany: they become more.
+    """
     # What an octant's surface may consist of, as far as its vertices may move.
     primitives = {
         key: octant_primitives(cell, key, spec.cell_size, spec.strut_radius, spec.reach)
@@ -128,7 +179,7 @@ def mesh_octants(
         group.append(key)
         monitor.tick()
     result: dict[OctantKey, Octant] = {}
-    _mesh(spec, {key: primitives[key] for key, _ in firsts.values()}, result, monitor)
+    _mesh(spec, {key: primitives[key] for key, _ in firsts.values()}, result, monitor, most)
     result.update(copies(spec, primitives, exchanged, result, DIVIDED_TO * spec.deviation))
     others = {key: primitives[key] for key in exchanged if key not in result}
     _mesh(spec, others, result, monitor)
@@ -157,26 +208,31 @@ def _mesh(
     primitives: Mapping[OctantKey, Primitives],
     result: dict[OctantKey, Octant],
     monitor: Monitor,
+    most: Callable[[int], float] | None = None,
 ) -> None:
     """Mesh octants, each by itself, and put them to the others.
 
     Raises:
         FacetsCross: there is an octant whose facets run through each other, however it is meshed.
+        _TooMany: as of `_mesh_kinds`.
     """
-    monitor.count("kinds of octants meshed", len(primitives))
     todo = list(primitives)
     while todo:
         batch = Batch.of(spec, {key: primitives[key] for key in todo})
         todo = todo[len(batch.keys) :]
-        result.update(_meshed(spec, batch, monitor))
+        result.update(_meshed(spec, batch, monitor, most))
         monitor.tick(1.0 - len(todo) / len(primitives))
+    monitor.count("kinds of octants meshed", len(primitives))
 
 
-def _meshed(spec: OctantSpec, batch: Batch, monitor: Monitor) -> dict[OctantKey, Octant]:
+def _meshed(
+    spec: OctantSpec, batch: Batch, monitor: Monitor, most: Callable[[int], float] | None
+) -> dict[OctantKey, Octant]:
     """The octants of a batch: those whose facets cross once more, in the next manner.
 
     Raises:
         FacetsCross: there is one whose facets run through each other, however it is meshed.
+        _TooMany: as of `_mesh_kinds`.
     """
     result: dict[OctantKey, Octant] = {}
     farthest = DIVIDED_TO * spec.deviation
@@ -196,6 +252,11 @@ def _meshed(spec: OctantSpec, batch: Batch, monitor: Monitor) -> dict[OctantKey,
         if manner is _Manner.COARSE_AND_FINE:
             # To draw facets apart moves them off the surface, and smaller ones less.
             meshed = _refined(_coarsened(meshed, spec.deviation), spec.deviation, monitor)
+            if most is not None and ENDLESS in batch.keys:
+                piece = batch.keys.index(ENDLESS)
+                before, now = (each.surface.facets_of(piece) for each in (even, meshed))
+                if now > most(before):
+                    raise _TooMany(now)
             fitted, crossed = meshed.surface, crossing_facets(meshed.surface, exact)
         else:
             if manner is _Manner.FINE:

@@ -31,6 +31,8 @@ class OctantSpec:
         fillet: joint fillet, mm.
         facets: facet edges along L.
         samples: by how many times samples are nearer to each other than facets need.
+        within: facet edges along L that would stray as far as facets may, where fewer of smaller
+            ones do with that; 0: `facets`.
 
     >>> spec = OctantSpec(cell_size=10.0, strut_radius=1.0, fillet=0.0, facets=20)
     >>> spec.edge, spec.steps, spec.step
@@ -42,6 +44,7 @@ class OctantSpec:
     fillet: float
     facets: int
     samples: int = 1
+    within: int = 0
 
     @property
     def edge(self) -> float:
@@ -50,8 +53,9 @@ class OctantSpec:
 
     @property
     def deviation(self) -> float:
-        """How far facets of the wanted edge stray from a strut to either side, mm."""
-        return self.edge**2 / (16.0 * self.strut_radius)
+        """How far facets may stray from a strut to either side, mm: as far as they do `within`."""
+        edge = self.cell_size / (self.within or self.facets)
+        return edge**2 / (16.0 * self.strut_radius)
 
     @property
     def influence(self) -> float:

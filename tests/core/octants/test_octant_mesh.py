@@ -118,7 +118,7 @@ def test_octants_whose_facets_cross_are_evened_out_once(monkeypatch):
     monkeypatch.setattr(octant_mesh, "remesh_evenly", counted)
     monkeypatch.setattr(octant_mesh, "crossing_facets", crossed)
     key = OctantKey(0, ALL_ACTIVE)
-    spec = OctantSpec(10.0, 1.0, 0.0, 8)
+    spec = OctantSpec(10.0, 1.0, 0.0, 15)
     assert len(mesh_octants(LIBRARY["BCC"], spec, [key], Monitor())[key].triangles)
     assert (evened, looked) == ([False], [True])
     monkeypatch.setattr(

@@ -136,13 +136,20 @@ def finish(
         before = surface.mesh
         straight, place = resolve_fold_crossings(before, monitor, deformed, folded)
         if place is not None:
-            surface, straight, place, mended = thinned(
-                surface, folded, straight, place, monitor, deformed
-            )
-            if mended is not None:
+            # A mesh less while slivers are looked for: of this one what has moved is kept.
+            moved = displaced_vertices(before, straight)
+            moved_to, straight = straight.vertices[moved], before
+            without = thinned(surface, folded, monitor, deformed)
+            if without is not None:
+                surface, straight, mended = without
+                place = None
                 before, least = surface.mesh, 0.5 * least  # the shells may have lost as much
                 found = mended.quality_after(quality, surface.bounds, least)
                 quality = surface.inspected(monitor).found.quality if found is None else found
+            elif moved.any():
+                vertices = before.vertices.copy()
+                vertices[moved] = moved_to
+                straight = TriangleMesh(vertices, before.triangles)
         drawn = straight is not before
     if drawn:
         changed = surface.on(straight)
@@ -183,26 +190,19 @@ def _quality_after(
 
 
 def thinned(
-    surface: TrimmedSurface,
-    folded: Folds,
-    straight: TriangleMesh,
-    place: Floats,
-    monitor: Monitor,
-    deformed: bool,
-) -> tuple[TrimmedSurface, TriangleMesh, Floats | None, MendedSurface | None]:
+    surface: TrimmedSurface, folded: Folds, monitor: Monitor, deformed: bool
+) -> tuple[TrimmedSurface, TriangleMesh, MendedSurface] | None:
     """A surface without the slivers about facets that cross, if nothing crosses then.
 
     Args:
         surface: as it was before anything was drawn apart.
         folded: where it turns back.
-        straight: its mesh as far as it could be drawn apart.
-        place: (3,) where that still crosses, mm.
         monitor: for cancel.
         deformed: as of `finish`.
 
     Returns:
-        The surface; its mesh, drawn apart; where that still crosses; and what has gone from the
-        surface as it was, None for nothing.
+        The surface; its mesh, drawn apart; and what has gone from the surface as it was. None where
+        something still crosses.
     """
     precision, mesh = edge_within(surface.bounds), surface.mesh
     crossing = vertices_of(mesh.triangles[folded.pairs], len(mesh.vertices))
@@ -227,8 +227,8 @@ def thinned(
         folded_now = folds_of(whole, monitor, deformed, new, changed.looks)
         apart, left = resolve_fold_crossings(whole, monitor, deformed, folded_now)
         if left is None:
-            return changed, apart, None, mended
-    return surface, straight, place, None
+            return changed, apart, mended
+    return None
 
 
 def _with_octants_about(surface: TrimmedSurface, pairs: Ints, monitor: Monitor) -> TrimmedSurface:

@@ -364,22 +364,19 @@ def test_facets_that_are_all_but_lines_go_where_they_cross():
     monitor = Monitor()
     turns = folds_of(mesh, monitor, True)
     assert len(turns.pairs)
-    drawn, place = resolve_fold_crossings(mesh, monitor, True, turns)
-    assert place is not None
-    surface, apart, left, mended = thinned(TrimmedSurface(mesh), turns, drawn, place, monitor, True)
+    assert resolve_fold_crossings(mesh, monitor, True, turns)[1] is not None
+    surface, apart, mended = thinned(TrimmedSurface(mesh), turns, monitor, True)
     # What its parts tell of a surface changes nothing, and is told of what is left, too.
     every, step = np.zeros(0, np.int64), decimal_step(mesh.vertices)
     looks = look_at(mesh, every, True, step, lambda rows: np.ones(len(rows), bool), monitor)
-    known = thinned(TrimmedSurface(mesh, looks=looks), turns, drawn, place, monitor, True)
+    known = thinned(TrimmedSurface(mesh, looks=looks), turns, monitor, True)
     assert np.array_equal(known[1].vertices, apart.vertices)
     assert known[0].looks is not None
     assert len(known[0].looks.marks) == len(apart.triangles)
-    assert left is None
     assert not len(folds_of(apart, monitor, True).pairs)
     assert len(mesh.triangles) - 8 < len(apart.triangles) < len(mesh.triangles)
     assert surface.mesh.area == pytest.approx(mesh.area, rel=1e-5)
     # What has gone tells the quality of what is left.
-    assert mended is not None
     told, found = mended.quality_after(measure(mesh), surface.bounds, 1e-3), measure(surface.mesh)
     assert mended.quality_after(measure(mesh), surface.bounds, 0.0) is None
     assert told is not None

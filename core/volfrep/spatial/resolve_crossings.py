@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.float32_repair import Repair
-from ..mesh.precision import decimal_step
+from ..mesh.precision import decimal_step, merging
 from ..mesh.topology import (
     corners_among,
     displaced_vertices,
@@ -359,6 +359,7 @@ class _Places:
         self._deep = 0
         self._random = np.random.default_rng(0)
         self._monitor = monitor
+        self._step = decimal_step(mesh.vertices)
         self._watch = self._watched()
 
     @classmethod
@@ -395,7 +396,10 @@ class _Places:
         return result
 
     def move(self, share: float) -> None:
-        """Vertices go so much of their way, or a random one below 0, where that helps."""
+        """Vertices go so much of their way, or a random one below 0, where that helps.
+
+        Not where one would be one with another in a file.
+        """
         if len(self.pairs) < FEWER * self._watched_pairs:
             self._watch = self._watched()
         chosen = self._grow(MOST_RINGS) & self._free
@@ -411,12 +415,15 @@ class _Places:
         vertices[rows] += abs(share) * way
         left = self._watch.crossing(vertices, chosen)
         worse = _find_worse(here, chosen, self.pairs, left)
+        together = merging(vertices, self._step)
+        worse[together] |= chosen[together]
         if worse.any():  # each place by itself: what got worse there goes back
             vertices[worse] = self._vertices[worse]
             chosen &= ~worse
             stays = ~touching(chosen, self._triangles)[self.pairs].any(axis=1)
             left = np.concatenate([self.pairs[stays], self._watch.crossing(vertices, chosen)])
-        if len(left) <= len(self.pairs):
+            together = merging(vertices, self._step) if len(together) else together
+        if len(left) <= len(self.pairs) and not chosen[together].any():
             self._vertices, self.pairs = vertices, np.unique(left, axis=0)
         self._deep += share >= DEEP
         if share >= DEEP and not self._deep % 2:  # places that are left need more room

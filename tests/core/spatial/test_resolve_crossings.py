@@ -11,7 +11,7 @@ from volfrep.design.profile import Profile
 from volfrep.design.spec import LatticeSpec
 from volfrep.io.write.stl import as_read
 from volfrep.jobs.infill import Infill
-from volfrep.mesh.precision import decimal_step
+from volfrep.mesh.precision import decimal_step, merging_vertices
 from volfrep.mesh.triangle_mesh import TriangleMesh, concatenate
 from volfrep.spatial import resolve_crossings
 from volfrep.spatial.piercing import piercing_pairs
@@ -68,6 +68,18 @@ def test_a_rim_that_runs_through_itself_is_drawn_apart():
     assert place is None
     assert np.array_equal(straight.triangles, mesh.triangles)
     assert straight.volume == pytest.approx(lens(0.0).volume, rel=0.02)
+
+
+def test_no_vertex_comes_to_lie_where_another_is(monkeypatch):
+    """A reader takes two for one, and finds edges of four triangles where they are a sheet's."""
+
+    def onto_first(mesh, rows, triangles):
+        return mesh.vertices[rows[:1]] - mesh.vertices[rows]
+
+    monkeypatch.setattr(resolve_crossings, "_to_neighbours", onto_first)
+    monkeypatch.setattr(resolve_crossings, "SHARES", (1.0, 0.01))
+    straight, _ = resolve_fold_crossings(lens(4e-5), Monitor())
+    assert not len(merging_vertices(straight))
 
 
 def test_nothing_moves_where_nothing_crosses():

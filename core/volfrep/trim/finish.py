@@ -137,7 +137,7 @@ def finish(
         straight, place = resolve_fold_crossings(before, monitor, deformed, folded)
         if place is not None:
             # A mesh less while slivers are looked for: of this one what has moved is kept.
-            moved = displaced_vertices(before, straight)
+            moved = np.flatnonzero(displaced_vertices(before, straight))
             moved_to, straight = straight.vertices[moved], before
             without = thinned(surface, folded, monitor, deformed)
             if without is not None:
@@ -146,9 +146,8 @@ def finish(
                 before, least = surface.mesh, 0.5 * least  # the shells may have lost as much
                 found = mended.quality_after(quality, surface.bounds, least)
                 quality = surface.inspected(monitor).found.quality if found is None else found
-            elif moved.any():
-                vertices = before.vertices.copy()
-                vertices[moved] = moved_to
+            elif len(moved):
+                vertices = monitor.backend.replaced(before.vertices, moved, moved_to)
                 straight = TriangleMesh(vertices, before.triangles)
         drawn = straight is not before
     if drawn:

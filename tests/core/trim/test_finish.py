@@ -354,14 +354,29 @@ def test_a_surface_stays_joined_where_nothing_at_the_octants_rim_moves():
         assert changed.applied().is_joined == joined
 
 
-def test_facets_that_are_all_but_lines_go_where_they_cross():
+def grazed():
     """In a part of 180 mm, as steps of single precision are as long as these facets are high."""
     corner = samples.box((1.0, 1.0, 1.0))
-    mesh = concatenate(
+    return concatenate(
         TriangleMesh(np.array(GRAZED), np.array(GRAZED_FACETS, np.int32)),
         moved(corner, (178.0, 0.0, 0.0)),
     )
-    monitor = Monitor()
+
+
+def test_facets_that_cannot_go_stay_as_far_apart_as_they_were_drawn(monkeypatch):
+    larger = moved(samples.box((3.0, 3.0, 3.0)), (160.0, 0.0, 0.0))  # what is finished is a solid
+    mesh, monitor = concatenate(grazed(), larger), Monitor()
+    drawn, place = resolve_fold_crossings(mesh, monitor, True)
+    assert place is not None
+    assert (drawn.vertices != mesh.vertices).any()
+    monkeypatch.setattr("volfrep.trim.finish.thinned", lambda *_: None)
+    surface, _, notes = finish(TrimmedSurface(mesh), measure(mesh), monitor, True)
+    assert np.array_equal(surface.mesh.vertices, drawn.vertices)
+    assert notes
+
+
+def test_facets_that_are_all_but_lines_go_where_they_cross():
+    mesh, monitor = grazed(), Monitor()
     turns = folds_of(mesh, monitor, True)
     assert len(turns.pairs)
     assert resolve_fold_crossings(mesh, monitor, True, turns)[1] is not None
